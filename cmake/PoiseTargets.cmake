@@ -1,0 +1,67 @@
+# poise_library(NAME SOURCES ... [DEPS ...] [PRIVATE_DEPS ...])
+#   One static library per core folder. Headers are found from the project root, as
+#   "core/motion/clip.h".
+function(poise_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(${name} STATIC ${ARG_SOURCES})
+    target_compile_options(${name} PRIVATE ${POISE_WARNINGS})
+    target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
+    target_link_libraries(${name} PUBLIC ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+  else()
+    add_library(${name} INTERFACE)
+    target_include_directories(${name} INTERFACE "${PROJECT_SOURCE_DIR}")
+    target_link_libraries(${name} INTERFACE ${ARG_DEPS})
+  endif()
+endfunction()
+
+# poise_kernel(TARGET SOURCE)
+#   Compiles one hot source three times, for x86-64-v2, -v3 and -v4, into TARGET. In the source
+#   POISE_KERNEL_ISA names the namespace of this build (isa_v2, isa_v3, isa_v4) and core/base/isa.h
+#   chooses among them at run time. Eigen is renamed per build: otherwise the linker could keep the
+#   v4 copy of an inline function for code that must run on an older CPU.
+function(poise_kernel target source)
+  get_filename_component(stem "${source}" NAME_WE)
+  foreach(isa v2 v3 v4)
+    set(object ${target}_${stem}_${isa})
+    add_library(${object} OBJECT "${source}")
+    target_compile_options(${object} PRIVATE ${POISE_WARNINGS} -O3 -march=x86-64-${isa}
+                           -ffp-contract=fast -fno-math-errno)
+    target_compile_definitions(${object} PRIVATE POISE_KERNEL_ISA=isa_${isa} Eigen=Eigen_${isa})
+    target_include_directories(${object} PRIVATE "${PROJECT_SOURCE_DIR}")
+    target_link_libraries(${object} PRIVATE Eigen3::Eigen)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
+  endforeach()
+endfunction()
+
+# poise_program(NAME SOURCES ... [DEPS ...] [TORCH])
+#   TORCH links the start-up code that gives LibTorch's BLAS its environment before it loads.
+function(poise_program name)
+  cmake_parse_arguments(ARG "TORCH" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_compile_options(${name} PRIVATE ${POISE_WARNINGS})
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE ${ARG_DEPS})
+  if(ARG_TORCH)
+    target_sources(${name} PRIVATE $<TARGET_OBJECTS:poise_launch_environment>)
+  endif()
+endfunction()
+
+# poise_test(NAME SOURCES ... [DEPS ...] [LABELS unit|integration|slow|lint] [TORCH] [TIMEOUT s])
+#   One GoogleTest program; its cases become ctest cases.
+function(poise_test name)
+  cmake_parse_arguments(ARG "TORCH" "TIMEOUT" "SOURCES;DEPS;LABELS" ${ARGN})
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  set(torch_flag "")
+  if(ARG_TORCH)
+    set(torch_flag TORCH)
+  endif()
+  poise_program(${name} SOURCES ${ARG_SOURCES} DEPS ${ARG_DEPS} GTest::gmock_main ${torch_flag})
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+endfunction()

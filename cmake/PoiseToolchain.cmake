@@ -1,0 +1,31 @@
+# Language level, warnings, sanitizers and the compiler cache: what every target shares.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo)
+endif()
+
+find_program(POISE_CCACHE ccache)
+if(POISE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${POISE_CCACHE}")
+endif()
+
+# Eigen's alignment is part of our ABI: pin it, so that objects built for different instruction
+# sets agree on the layout of what they pass to each other.
+add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=16)
+
+# Our own code only; system and generated headers stay out of it.
+set(POISE_WARNINGS -Wall -Wextra -Werror -Wno-error=deprecated-declarations)
+
+if(POISE_SANITIZER)
+  add_compile_options(-fsanitize=${POISE_SANITIZER} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${POISE_SANITIZER})
+  if(POISE_SANITIZER STREQUAL "address")
+    add_compile_options(-fsanitize=undefined -fno-sanitize-recover=undefined)
+    add_link_options(-fsanitize=undefined)
+  endif()
+endif()

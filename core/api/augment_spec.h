@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/api/clip_source.h"
@@ -12,6 +13,12 @@
 #include "core/motion/metrics/plausibility.h"
 
 namespace poise::api {
+
+/// How a caller wants its variants.
+enum class OutputEncoding {
+  kArrays,
+  kBvh,  ///< files, in the unit, axes and channels of the source where it was a BVH file
+};
 
 /// A request for variants of clips.
 struct AugmentSpec {
@@ -30,6 +37,8 @@ struct AugmentSpec {
   /// Hyper-parameters by name: {"ik.radius_low": "0.9"}.
   base::Overrides overrides;
   bool with_plausibility = true;
+  /// The flow makes clips whatever it says; who hands them out obeys it.
+  OutputEncoding output = OutputEncoding::kArrays;
 
   /// Errors: kInvalidArgument EMPTY_REQUEST, TOO_MANY_SOURCES, BAD_VARIANT_COUNT, UNKNOWN_PRESET.
   /// Method, class and overrides are checked where they are understood (pipeline/augment.h).
@@ -51,6 +60,17 @@ struct Variant {
   int index = 0;      ///< 0 .. variants_per_source - 1
   uint64_t seed = 0;  ///< of this variant's own random stream
   motion::Clip clip;
+  std::optional<IkOutcome> ik;
+  std::optional<motion::Plausibility> plausibility;
+};
+
+/// A variant as it is handed out: as arrays, as a file, or as the name of an artifact that holds
+/// the file (too large for one message).
+struct DeliveredVariant {
+  int source_index = 0;
+  int index = 0;
+  uint64_t seed = 0;
+  std::variant<motion::Clip, EncodedClip, std::string> result;
   std::optional<IkOutcome> ik;
   std::optional<motion::Plausibility> plausibility;
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "absl/strings/cord.h"
 
 namespace poise::base {
@@ -9,6 +11,7 @@ namespace {
 
 constexpr char kReasonUrl[] = "poise/reason";
 constexpr char kFieldUrl[] = "poise/field";
+constexpr char kRetryUrl[] = "poise/retry_ms";
 
 // Debian's Abseil has a string_view of its own.
 absl::string_view ToAbsl(std::string_view text) { return {text.data(), text.size()}; }
@@ -58,6 +61,17 @@ std::string ErrorReason(const Status& status) {
 }
 
 std::string ErrorField(const Status& status) { return Payload(status, kFieldUrl); }
+
+Status WithRetryDelay(Status status, absl::Duration delay) {
+  status.SetPayload(kRetryUrl, absl::Cord(std::to_string(absl::ToInt64Milliseconds(delay))));
+  return status;
+}
+
+std::optional<absl::Duration> RetryDelay(const Status& status) {
+  const std::string milliseconds = Payload(status, kRetryUrl);
+  if (milliseconds.empty()) return std::nullopt;
+  return absl::Milliseconds(std::strtoll(milliseconds.c_str(), nullptr, 10));
+}
 
 Status Annotate(const Status& status, std::string_view context, std::string_view field_prefix) {
   if (status.ok()) return status;

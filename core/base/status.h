@@ -1,11 +1,13 @@
 #ifndef POISE_CORE_BASE_STATUS_H_
 #define POISE_CORE_BASE_STATUS_H_
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/time/time.h"
 
 /// Errors for programs as well as people: every Status that Poise makes carries, beside its code
 /// and message, a stable reason (UPPER_SNAKE_CASE) and, where one is to blame, the offending field
@@ -38,6 +40,11 @@ std::string ErrorReason(const Status& status);
 
 /// The offending field, or empty.
 std::string ErrorField(const Status& status);
+
+/// The same error with the time after which a retry may succeed; for overload and outages.
+Status WithRetryDelay(Status status, absl::Duration delay);
+/// That time, if the error carries one.
+std::optional<absl::Duration> RetryDelay(const Status& status);
 
 /// Same code, reason and details, with "`context`: " before the message and, when `field_prefix` is
 /// not empty, the field moved below it ("sources[2]" + "clip" = "sources[2].clip").

@@ -21,11 +21,18 @@ add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=16)
 # Our own code only; system and generated headers stay out of it.
 set(POISE_WARNINGS -Wall -Wextra -Werror -Wno-error=deprecated-declarations)
 
+set(POISE_TEST_ENVIRONMENT "")
 if(POISE_SANITIZER)
   add_compile_options(-fsanitize=${POISE_SANITIZER} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${POISE_SANITIZER})
   if(POISE_SANITIZER STREQUAL "address")
     add_compile_options(-fsanitize=undefined -fno-sanitize-recover=undefined)
     add_link_options(-fsanitize=undefined)
+    set(POISE_TEST_ENVIRONMENT
+        "ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:abort_on_error=1")
+  else()
+    # gRPC, Abseil, protobuf and OpenMP come from Debian without instrumentation.
+    set(POISE_TEST_ENVIRONMENT
+        "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/tsan_suppressions.txt")
   endif()
 endif()

@@ -1,6 +1,9 @@
 #ifndef POISE_CORE_MOTION_METRICS_PLAUSIBILITY_H_
 #define POISE_CORE_MOTION_METRICS_PLAUSIBILITY_H_
 
+#include <vector>
+
+#include "core/base/config_fields.h"
 #include "core/base/json.h"
 #include "core/base/status.h"
 #include "core/motion/clip.h"
@@ -22,8 +25,23 @@ struct Plausibility {
 
 base::Json ToJson(const Plausibility& plausibility);
 
-/// Errors: kFailedPrecondition MISSING_ROLES; CLIP_TOO_SHORT (fewer than 4 frames).
-StatusOr<Plausibility> AssessPlausibility(const Clip& clip, const JointRoles& roles);
+/// What counts as standing, and how the floor is found (metrics/floor_contact.h).
+struct PlausibilityConfig {
+  double contact_height_m = 0.025;  ///< [m, > 0] a sole lower than this above the floor stands; its
+                                    ///< weight in the mean falls from 1 on the floor to 0 here
+  double still_speed_mps = 0.3;     ///< [m/s, > 0] a sole point slower than this marks the floor
+  double floor_band_m = 0.12;  ///< [m, > 0] still points higher than this above the lowest ones
+                               ///< are a lifted foot, not the floor
+
+  std::vector<base::Field> Fields();
+};
+
+/// Takes about 1 ms for 3 s at 120 Hz. Accelerations and jerks are central differences of the
+/// joints' world positions, over three and four frames.
+/// Errors: kFailedPrecondition MISSING_ROLES; CLIP_TOO_SHORT (fewer than 4 frames);
+/// kInvalidArgument CONFIG_VALUE_OUT_OF_RANGE.
+StatusOr<Plausibility> AssessPlausibility(const Clip& clip, const JointRoles& roles,
+                                          const PlausibilityConfig& config = {});
 
 }  // namespace poise::motion
 

@@ -16,10 +16,11 @@ namespace poise::synthesis {
 /// A variant while it passes through the steps of a method.
 struct Draft {
   motion::Clip clip;
-  std::optional<api::IkOutcome> ik;
+  std::optional<api::IkOutcome> ik;  ///< of the last step that was IK; a mirror mirrors it
 };
 
-/// A synthesizer that has studied one source clip (keyframe, limb, ...) and now makes variants.
+/// A synthesizer that has studied one source (keyframe, limb, ...) and now makes variants.
+/// Refers to the source and the synthesizer, which must outlive it.
 /// Threads: Sample may be called from several threads, each with its own Random.
 class BoundSynthesizer {
  public:
@@ -33,9 +34,13 @@ class BoundSynthesizer {
 class Synthesizer {
  public:
   virtual ~Synthesizer() = default;
-  /// Errors: kFailedPrecondition when the clip lacks what this way needs (roles, length).
+  /// Whether a clip has what this way needs, cheaply and before any work.
+  /// Errors: kFailedPrecondition when the clip lacks roles or length.
+  virtual Status Check(const motion::Clip& clip, const motion::JointRoles& roles) const = 0;
+  /// Prepares for variants of `source`: a clip, or the draft of an earlier step.
+  /// Errors: those of Check.
   virtual StatusOr<std::unique_ptr<BoundSynthesizer>> Bind(
-      const motion::Clip& clip, const motion::JointRoles& roles) const = 0;
+      const Draft& source, const motion::JointRoles& roles) const = 0;
 };
 
 }  // namespace poise::synthesis

@@ -39,9 +39,9 @@ struct SourceConvention {
   bool rest_pose_turned = false;
   /// Per joint: its channels in the file's order ("Xposition", ...). Empty: Zrotation Xrotation
   /// Yrotation, after three positions for the root.
-  std::vector<std::vector<std::string>> channels;
+  std::vector<std::vector<std::string>> channels = {};
   /// What was detected and why, a sentence each: "unit: 0.01 m, since the body would be 1.68 tall".
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = {};
 };
 
 /// A clip as read, in Poise's conventions (metres, Y up), with where it came from.

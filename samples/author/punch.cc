@@ -60,7 +60,7 @@ void SetLegs(Performance& punch) {
   LegScript& left = punch.leg(Side::kLeft);
   left.ball = VectorTrack{
       {0.00, {0.105, 0, 0.300}},        {0.28, {0.105, 0, 0.300}, kRest},
-      {0.36, {0.108, 0.034, 0.370}},    {0.46, {0.113, 0.030, 0.530}},
+      {0.36, {0.108, 0.042, 0.370}},    {0.46, {0.113, 0.034, 0.530}},
       {0.54, {0.115, 0, 0.565}, kRest}, {1.90, {0.115, 0, 0.565}},
   };
   left.foot = VectorTrack{
@@ -72,7 +72,7 @@ void SetLegs(Performance& punch) {
   LegScript& right = punch.leg(Side::kRight);
   right.ball = VectorTrack{
       {0.00, {-0.130, 0, -0.215}},       {0.84, {-0.130, 0, -0.215}, kRest},
-      {0.94, {-0.128, 0.030, -0.160}},   {1.06, {-0.126, 0.028, -0.010}},
+      {0.94, {-0.128, 0.046, -0.150}},   {1.06, {-0.126, 0.040, -0.005}},
       {1.17, {-0.126, 0, 0.043}, kRest}, {1.90, {-0.126, 0, 0.043}},
   };
   right.foot = VectorTrack{

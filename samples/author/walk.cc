@@ -8,7 +8,7 @@ namespace {
 
 constexpr auto kRest = Pass::kRest;
 constexpr double kCycle = 1.08;   // [s] from one left heel strike to the next
-constexpr double kStride = 1.29;  // [m] in that time
+constexpr double kStride = 1.26;  // [m] in that time
 constexpr double kSpeed = kStride / kCycle;
 constexpr double kStart = -0.16;  // [cycles] where in the gait the clip begins
 
@@ -32,13 +32,14 @@ void SetLeg(Performance& walk, Side side, const FootHabits& habits) {
     };
     const auto place = [&](double share, double height) {
       return Vec3(habits.lateral, height * habits.clearance,
-                  (step + habits.strike - kStart + share) * kStride + 0.430);
+                  (step + habits.strike - kStart + share) * kStride + 0.405);
     };
     ball.push_back({time(0.00), place(0, 0), kRest});
     ball.push_back({time(0.575), place(0, 0), kRest});
-    ball.push_back({time(0.70), place(0.195, 0.052)});
-    ball.push_back({time(0.81), place(0.505, 0.050)});
-    ball.push_back({time(0.90), place(0.81, 0.034)});
+    ball.push_back({time(0.69), place(0.19, 0.064)});
+    ball.push_back({time(0.79), place(0.51, 0.052)});
+    ball.push_back({time(0.88), place(0.85, 0.034)});
+    ball.push_back({time(0.95), place(0.985, 0.018)});
     const double out = habits.toe_out;
     foot.push_back({time(0.00), {out, 19, 0}});
     foot.push_back({time(0.10), {out, 0, 0}, kRest});
@@ -46,8 +47,8 @@ void SetLeg(Performance& walk, Side side, const FootHabits& habits) {
     foot.push_back({time(0.42), {out, 0, 9}});
     foot.push_back({time(0.50), {out, 0, 16}});
     foot.push_back({time(0.61), {out + 2, 0, 55}});
-    foot.push_back({time(0.72), {out + 2, 0, 47}});
-    foot.push_back({time(0.84), {out, 5, 8}});
+    foot.push_back({time(0.71), {out + 2, 0, 42}});
+    foot.push_back({time(0.83), {out, 5, 6}});
     foot.push_back({time(0.94), {out, 17, 0}});
   }
   LegScript& leg = walk.leg(side);
@@ -78,7 +79,7 @@ Performance Walk() {
   walk.pelvis = [](double time) {
     const double p = Phase(time);
     return Vec3(0.020 * Wave(p, 0.32) + 0.003 * Wave(p, 0.1),
-                0.926 + 0.015 * Wave(2 * p, 2 * 0.31) + 0.002 * Wave(p, 0.3),
+                0.931 + 0.012 * Wave(2 * p, 2 * 0.31) + 0.002 * Wave(p, 0.3),
                 kSpeed * time + 0.008 * Wave(2 * p, 0.1));
   };
   walk.pelvis_turn = [](double time) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/rest_pose.h"
+
 namespace poise::motion {
 namespace {
 
@@ -49,17 +51,6 @@ constexpr std::array<Plan, kNumRequiredRoles> kPlans = {{
     {kLeftWrist, 14, kSphere, 0.06, 0, kLeftWrist},
 }};
 constexpr double kHeadAboveNeck = 0.0875;  // [m] centre of the head, of the reference humanoid
-
-// From a joint to one below it, in the upper joint's frame, with the joints between unrotated.
-Vec3 RestVector(const Skeleton& skeleton, int from, int to) {
-  Vec3 sum = Vec3::Zero();
-  for (; to >= 0 && to != from; to = skeleton.parent(to)) sum += skeleton.joint(to).offset;
-  return to == from ? sum : Vec3(Vec3::Zero());
-}
-
-Vec3 RestVector(const Skeleton& skeleton, const JointRoles& roles, JointRole from, JointRole to) {
-  return RestVector(skeleton, roles.joint(from), roles.joint(to));
-}
 
 // Where the head is from the neck: towards the head joint, else the neck's end site or first child,
 // else on from chest to neck.
@@ -125,20 +116,16 @@ std::optional<Sole> MakeSole(const Vec3& up, const Vec3& towards_toes) {
 }
 
 std::optional<Soles> SolesOfRestPose(const Skeleton& skeleton, const JointRoles& roles) {
-  const Vec3 spine = RestVector(skeleton, roles, kPelvis, kNeck);
+  if (!RestPoseStands(skeleton, roles)) return std::nullopt;
   const Vec3 across = RestVector(skeleton, roles, kPelvis, kLeftHip) -
                       RestVector(skeleton, roles, kPelvis, kRightHip);
-  const auto sole = [&](JointRole hip, JointRole knee, JointRole ankle) -> std::optional<Sole> {
-    const Vec3 thigh = RestVector(skeleton, roles, hip, knee);
-    const Vec3 shin = RestVector(skeleton, roles, knee, ankle);
-    const bool upright = thigh.dot(spine) < -0.5 * thigh.norm() * spine.norm() &&
-                         shin.dot(spine) < -0.5 * shin.norm() * spine.norm();
-    if (!upright) return std::nullopt;
+  const auto sole = [&](JointRole knee, JointRole ankle) {
+    const Vec3 up = -RestVector(skeleton, roles, knee, ankle);
     // Left of the body cross up is forward.
-    return MakeSole(-shin, ToeOffset(skeleton, roles, ankle).value_or(across.cross(-shin)));
+    return MakeSole(up, ToeOffset(skeleton, roles, ankle).value_or(across.cross(up)));
   };
-  const auto right = sole(kRightHip, kRightKnee, kRightAnkle);
-  const auto left = sole(kLeftHip, kLeftKnee, kLeftAnkle);
+  const auto right = sole(kRightKnee, kRightAnkle);
+  const auto left = sole(kLeftKnee, kLeftAnkle);
   if (!right || !left) return std::nullopt;
   return Soles{*right, *left};
 }

@@ -1,0 +1,21 @@
+#ifndef POISE_CLIENT_CLI_COMMANDS_H_
+#define POISE_CLIENT_CLI_COMMANDS_H_
+
+#include "client/cli/command_line.h"
+#include "client/cli/console.h"
+
+/// The sub-commands, each in the file of its name. `console` outlives them.
+namespace poise::cli {
+
+/// What is in a motion file (info_command.cc).
+Command AddInfoCommand(CLI::App& app, const Console& console);
+/// Any format to BVH, with edits on the way (convert_command.cc).
+Command AddConvertCommand(CLI::App& app, const Console& console);
+/// Where the joints are (fk_command.cc).
+Command AddFkCommand(CLI::App& app, const Console& console);
+/// Variants of clips, made by a server (augment_command.cc).
+Command AddAugmentCommand(CLI::App& app, const Console& console);
+
+}  // namespace poise::cli
+
+#endif  // POISE_CLIENT_CLI_COMMANDS_H_

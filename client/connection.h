@@ -1,0 +1,39 @@
+#ifndef POISE_CLIENT_CONNECTION_H_
+#define POISE_CLIENT_CONNECTION_H_
+
+#include <memory>
+
+#include "client/client_options.h"
+#include "grpc/health/v1/health.grpc.pb.h"
+#include "grpcpp/grpcpp.h"
+#include "poise/v1/artifact_service.grpc.pb.h"
+#include "poise/v1/augmentation_service.grpc.pb.h"
+
+namespace poise::client {
+
+/// The channel to one server with a stub per service.
+/// Threads: all members may be called from any thread.
+class Connection {
+ public:
+  explicit Connection(ClientOptions options);
+
+  /// The metadata and the deadline of one call; at most `timeout` and the option of that name.
+  std::unique_ptr<grpc::ClientContext> NewCall(
+      absl::Duration timeout = absl::InfiniteDuration()) const;
+
+  const ClientOptions& options() const { return options_; }
+  v1::AugmentationService::Stub& augmentation() const { return *augmentation_; }
+  v1::ArtifactService::Stub& artifact() const { return *artifact_; }
+  grpc::health::v1::Health::Stub& health() const { return *health_; }
+
+ private:
+  const ClientOptions options_;
+  std::shared_ptr<grpc::Channel> channel_;
+  std::unique_ptr<v1::AugmentationService::Stub> augmentation_;
+  std::unique_ptr<v1::ArtifactService::Stub> artifact_;
+  std::unique_ptr<grpc::health::v1::Health::Stub> health_;
+};
+
+}  // namespace poise::client
+
+#endif  // POISE_CLIENT_CONNECTION_H_

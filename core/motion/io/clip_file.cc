@@ -11,6 +11,8 @@
 #include "core/motion/io/asf_reader.h"
 #include "core/motion/io/bvh_reader.h"
 #include "core/motion/io/cmu_text_reader.h"
+#include "core/motion/io/deepmimic_reader.h"
+#include "core/motion/io/npz_reader.h"
 #include "core/motion/io/raw_clip.h"
 #include "core/motion/io/text_scanner.h"
 
@@ -24,10 +26,23 @@ struct FormatName {
   const char* name;
 };
 constexpr std::array kFormatNames = {
-    FormatName{ClipFormat::kUnknown, "unknown"},  FormatName{ClipFormat::kBvh, "bvh"},
-    FormatName{ClipFormat::kAmc, "amc"},          FormatName{ClipFormat::kNpz, "npz"},
+    FormatName{ClipFormat::kUnknown, "unknown"},
+    FormatName{ClipFormat::kBvh, "bvh"},
+    FormatName{ClipFormat::kAmc, "amc"},
+    FormatName{ClipFormat::kNpz, "npz"},
     FormatName{ClipFormat::kCmuText, "cmu_text"},
+    FormatName{ClipFormat::kDeepMimic, "deepmimic_json"},
 };
+
+std::string KnownFormats() {
+  std::string names;
+  for (const FormatName& entry : kFormatNames) {
+    if (entry.format == ClipFormat::kUnknown) continue;
+    names += names.empty() ? "" : ", ";
+    names += entry.name;
+  }
+  return names;
+}
 
 // What ASF text is called in messages.
 struct SkeletonSource {
@@ -56,14 +71,16 @@ StatusOr<RawClip> ReadRaw(std::string_view name, std::string_view data, ClipForm
     case ClipFormat::kCmuText:
       return ReadCmuText(name, data);
     case ClipFormat::kNpz:
+      return ReadNpz(name, data);
+    case ClipFormat::kDeepMimic:
+      return ReadDeepMimic(name, data);
     case ClipFormat::kUnknown:
       break;
   }
   return base::InvalidArgument(
       "UNKNOWN_FORMAT", "format",
-      fmt::format("{}: neither its name nor its first bytes ({}) tell a format; expected bvh, amc, "
-                  "npz or cmu_text",
-                  name, Quoted(data.substr(0, 16))));
+      fmt::format("{}: neither its name nor its first bytes ({}) tell a format; expected one of {}",
+                  name, Quoted(data.substr(0, 16)), KnownFormats()));
 }
 
 StatusOr<ClipFile> Decode(std::string_view name, std::string_view data, ClipFormat format,
@@ -118,7 +135,7 @@ StatusOr<ClipFormat> ParseClipFormat(std::string_view name) {
   }
   return base::InvalidArgument(
       "UNKNOWN_FORMAT", "format",
-      fmt::format("unknown clip format {}; expected bvh, amc, npz or cmu_text", Quoted(name)));
+      fmt::format("unknown clip format {}; expected one of {}", Quoted(name), KnownFormats()));
 }
 
 ClipFormat DetectClipFormat(std::string_view file_name, std::string_view data) {
@@ -135,6 +152,9 @@ ClipFormat DetectClipFormat(std::string_view file_name, std::string_view data) {
   if (ends_with(".amc")) return ClipFormat::kAmc;
   if (ends_with(".npz")) return ClipFormat::kNpz;
   if (line.starts_with("#!OML") || line.starts_with(":FULLY-SPECIFIED")) return ClipFormat::kAmc;
+  if (line.starts_with('{') && data.substr(0, 4096).find("\"Frames\"") != std::string_view::npos) {
+    return ClipFormat::kDeepMimic;
+  }
   if (std::count(line.begin(), line.end(), ',') == kCmuTextColumns - 1) {
     return ClipFormat::kCmuText;
   }

@@ -12,10 +12,10 @@
 
 namespace poise::motion {
 
-enum class ClipFormat { kUnknown, kBvh, kAmc, kNpz, kCmuText };
+enum class ClipFormat { kUnknown, kBvh, kAmc, kNpz, kCmuText, kDeepMimic };
 enum class UpAxis { kY, kZ };
 
-/// "bvh", "amc", "npz", "cmu_text", "unknown"
+/// "bvh", "amc", "npz", "cmu_text", "deepmimic_json", "unknown"
 const char* ClipFormatName(ClipFormat format);
 /// From a name as above. Errors: kInvalidArgument UNKNOWN_FORMAT.
 StatusOr<ClipFormat> ParseClipFormat(std::string_view name);
@@ -24,9 +24,9 @@ ClipFormat DetectClipFormat(std::string_view file_name, std::string_view data);
 
 /// What files do not say. A value given here overrides what would be detected from the body's size.
 struct ClipHints {
-  std::optional<double> unit_m;      ///< [m > 0] length of one file unit
-  std::optional<UpAxis> up;          ///< axis that points up in the file
-  std::optional<double> frame_rate;  ///< [Hz]
+  std::optional<double> unit_m = {};      ///< [m > 0] length of one file unit
+  std::optional<UpAxis> up = {};          ///< axis that points up in the file
+  std::optional<double> frame_rate = {};  ///< [Hz]
 };
 
 /// How the file wrote the motion, kept so that it can be written back unchanged.
@@ -53,9 +53,9 @@ struct ClipFile {
 /// Reads a clip from memory. `name` is for messages ("kick.bvh") and becomes the clip's name
 /// without its ending. `skeleton_data` is the ASF text that an AMC needs. Errors: kInvalidArgument
 /// with the line (text) or entry (npz) and what was expected: UNKNOWN_FORMAT, MALFORMED_BVH,
-/// MALFORMED_ASF, MALFORMED_AMC, MALFORMED_NPZ, MALFORMED_CMU_TEXT, TOO_LARGE, MOVING_JOINT_OFFSET
-/// (a BVH joint below the root chain that travels), MISSING_SKELETON, and those of Skeleton and
-/// Clip.
+/// MALFORMED_ASF, MALFORMED_AMC, MALFORMED_NPZ, MALFORMED_CMU_TEXT, MALFORMED_DEEPMIMIC, TOO_LARGE,
+/// MOVING_JOINT_OFFSET (a BVH joint below the root chain that travels), MISSING_SKELETON, and those
+/// of Skeleton and Clip.
 StatusOr<ClipFile> DecodeClip(std::string_view name, std::string_view data,
                               ClipFormat format = ClipFormat::kUnknown, const ClipHints& hints = {},
                               std::string_view skeleton_data = "");

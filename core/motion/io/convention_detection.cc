@@ -12,8 +12,8 @@
 namespace poise::motion {
 namespace {
 
-// The longest way along bones, from toes to the other side's fingers, in heights. It gives the bodies
-// of HDM05, CMU, Bandai-Namco and FZJ 1.46 to 2.03 m.
+// The longest way along bones, from toes to the other side's fingers, in heights. It makes the
+// bodies of HDM05, CMU, Bandai-Namco and FZJ 1.46 to 2.03 m tall.
 constexpr double kLongestPathInHeights = 1.35;
 constexpr double kUsualHeight = 1.7;  // [m]
 constexpr double kLeastHeight = 0.9, kMostHeight = 2.4;

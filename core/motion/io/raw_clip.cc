@@ -83,9 +83,9 @@ Status CheckSize(std::string_view file, int line, int64_t frames, int64_t joints
   if (frames <= most / std::max<int64_t>(joints, 1)) return absl::OkStatus();
   return base::InvalidArgument(
       "TOO_LARGE", "",
-      fmt::format("{}: line {}: {} frames x {} joints, expected at most {} rotations in a file of "
-                  "{} bytes",
-                  file, line, frames, joints, most, file_bytes));
+      fmt::format(
+          "{}: {}{} frames x {} joints, expected at most {} rotations in a file of {} bytes", file,
+          line > 0 ? fmt::format("line {}: ", line) : "", frames, joints, most, file_bytes));
 }
 
 StatusOr<ClipFile> ToClipFile(std::string_view file, RawClip raw, ClipFormat format,

@@ -34,7 +34,7 @@ struct RawClip {
 /// not fill the memory through joints that have no channels.
 int64_t MostRotations(size_t file_bytes);
 
-/// Errors: TOO_LARGE, naming the file, its line and the limit.
+/// Errors: TOO_LARGE, naming the file, its line (0: it has none) and the limit.
 Status CheckSize(std::string_view file, int line, int64_t frames, int64_t joints,
                  size_t file_bytes);
 

@@ -74,6 +74,23 @@ TEST(RealDataTest, EveryBandaiFileIsRead) {
   ExpectHuman("bandai", {".bvh"}, 64, 0.01, UpAxis::kY, 30);
 }
 
+// The steps of dance_spin, jog, backflip and so on differ, and those within roll.
+TEST(RealDataTest, EveryDeepMimicFileIsRead) {
+  POISE_REQUIRE_DATA("deepmimic");
+  int files = 0, resampled = 0;
+  for (const auto& path : DataFiles("deepmimic", {".txt"})) {
+    const auto file = ReadClipFile(path);
+    ASSERT_TRUE(file.ok()) << file.status();
+    EXPECT_EQ(file->convention.format, ClipFormat::kDeepMimic);
+    resampled += file->convention.notes.back().find("resampled") != std::string::npos;
+    ++files;
+  }
+  EXPECT_EQ(files, 20);
+  EXPECT_EQ(resampled, 1);
+  EXPECT_EQ(Read("deepmimic/humanoid3d_walk.txt").clip.num_frames(), 39);
+  EXPECT_EQ(Read("deepmimic/humanoid3d_dance_spin.txt").clip.frame_rate(), 120);
+}
+
 TEST(RealDataTest, EveryFzjFileIsRead) {
   POISE_REQUIRE_DATA("fzj_push");
   ExpectHuman("fzj_push", {".bvh"}, 332, 0.001, UpAxis::kZ, 60);

@@ -36,3 +36,8 @@ if(POISE_SANITIZER)
         "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/tsan_suppressions.txt")
   endif()
 endif()
+
+if(POISE_BUILD_FUZZERS)
+  # Tells libFuzzer which branches an input took; only the fuzz targets link its main.
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()

@@ -15,9 +15,13 @@ namespace {
 
 using math::Mat3;
 
-constexpr double kShortBone = 0.02;        // [m] directions of shorter bones say nothing
-constexpr double kSameDirection = 0.0873;  // [rad] 5 degrees: real skeletons differ by 3
-constexpr double kCaughtRestPose = 0.785;  // [rad] 45 degrees: a stance, feet turned out
+constexpr double kShortBone = 0.02;  // [m] directions of shorter bones say nothing
+// Within these angles [rad] two bones count as mirror images: 3 degrees on limbs, where more is a
+// rest pose caught from a stance, but 15 on the bones up to hips and shoulders, where it is the
+// shape of the body (HDM05's collars differ by 11).
+constexpr double kSameLimb = 0.0524;
+constexpr double kSameGirdle = 0.262;
+constexpr double kCaughtRestPose = 0.785;  // 45 degrees: a stance, feet turned out
 constexpr double kLengthRatio = 0.15;      // bones of the two sides may differ by this part
 constexpr double kLengthSlack = 0.01;      // [m] and this much
 constexpr int kSampledFrames = 64;         // of the clip, for its average pose
@@ -26,6 +30,7 @@ constexpr int kSampledFrames = 64;         // of the clip, for its average pose
 struct BonePair {
   Vec3 bone;
   Vec3 image;
+  double tolerance;  // [rad] within which they are mirror images
 };
 using BonePairs = std::vector<std::vector<BonePair>>;  // (joints), bones of each
 
@@ -35,10 +40,17 @@ Mat3 Reflection(const Vec3& normal) {
   return Mat3::Identity() - 2 * normal * normal.transpose() / normal.squaredNorm();
 }
 
-StatusOr<BonePairs> CollectBones(const Skeleton& skeleton, std::span<const int> partners) {
+StatusOr<BonePairs> CollectBones(const Skeleton& skeleton, const JointRoles& roles,
+                                 std::span<const int> partners) {
   BonePairs bones(skeleton.num_joints());
+  std::vector<bool> girdle(skeleton.num_joints(), false);  // up to hips and shoulders
+  for (const JointRole role : {JointRole::kLeftHip, JointRole::kRightHip, JointRole::kLeftShoulder,
+                               JointRole::kRightShoulder}) {
+    for (const int joint : skeleton.ChainToRoot(roles.joint(role))) girdle[joint] = true;
+  }
   for (int j = 0; j < skeleton.num_joints(); ++j) {
-    const auto add = [&](const Vec3& bone, const Vec3& image, const std::string& name) -> Status {
+    const auto add = [&](const Vec3& bone, const Vec3& image, double tolerance,
+                         const std::string& name) -> Status {
       const double a = bone.norm(), b = image.norm();
       if (std::abs(a - b) > kLengthSlack + kLengthRatio * std::max(a, b)) {
         return base::FailedPrecondition(
@@ -47,32 +59,28 @@ StatusOr<BonePairs> CollectBones(const Skeleton& skeleton, std::span<const int> 
                         "mirrored motion would not fit this body",
                         name, a, b));
       }
-      if (std::min(a, b) > kShortBone) bones[j].push_back({bone, image});
+      if (std::min(a, b) > kShortBone) bones[j].push_back({bone, image, tolerance});
       return absl::OkStatus();
     };
     for (const int child : skeleton.children(j)) {
       const Joint& joint = skeleton.joint(child);
-      POISE_RETURN_IF_ERROR(add(joint.offset, skeleton.joint(partners[child]).offset, joint.name));
+      POISE_RETURN_IF_ERROR(add(joint.offset, skeleton.joint(partners[child]).offset,
+                                girdle[child] ? kSameGirdle : kSameLimb, joint.name));
     }
     const auto &tip = skeleton.joint(j).end_site, &tip_image = skeleton.joint(partners[j]).end_site;
     if (tip && tip_image) {
-      POISE_RETURN_IF_ERROR(add(*tip, *tip_image, "the tip of " + skeleton.joint(j).name));
+      POISE_RETURN_IF_ERROR(
+          add(*tip, *tip_image, kSameLimb, "the tip of " + skeleton.joint(j).name));
     }
   }
   return bones;
 }
 
-// The worst angle between a bone as `frame` reflects it and its image.
-double WorstAngle(const Mat3& frame, std::span<const BonePair> bones) {
-  double worst = 0;
-  for (const BonePair& pair : bones) worst = std::max(worst, Angle(frame * pair.bone, pair.image));
-  return worst;
-}
-
-double WorstAngle(const Mat3& frame, const BonePairs& bones) {
-  double worst = 0;
-  for (const auto& of_joint : bones) worst = std::max(worst, WorstAngle(frame, of_joint));
-  return worst;
+// Whether `frame` takes every bone to its image, within the bone's own tolerance or this one.
+bool Mirrors(const Mat3& frame, std::span<const BonePair> bones, double at_least = 0) {
+  return std::all_of(bones.begin(), bones.end(), [&](const BonePair& pair) {
+    return Angle(frame * pair.bone, pair.image) <= std::max(pair.tolerance, at_least);
+  });
 }
 
 // The reflection among the coordinate planes (and, off the trunk, the point reflection) that is
@@ -125,9 +133,9 @@ Mat3 FitLimbFrame(const Mat3& expected, std::span<const BonePair> bones) {
 }
 
 // The plane that mirrors the rest pose, if the rest pose is symmetric at all: one reflection for
-// every joint, within `tolerance`.
+// every joint, each bone within its own tolerance or `at_least`.
 std::optional<Mat3> RestReflection(const Skeleton& skeleton, std::span<const int> partners,
-                                   const BonePairs& bones, double tolerance) {
+                                   const BonePairs& bones, double at_least) {
   std::vector<Vec3> rest(skeleton.num_joints(), Vec3::Zero());
   Vec3 across = Vec3::Zero();
   for (int j = 1; j < skeleton.num_joints(); ++j) {
@@ -140,7 +148,10 @@ std::optional<Mat3> RestReflection(const Skeleton& skeleton, std::span<const int
   if (across.norm() < kShortBone) return std::nullopt;
   const Mat3 free = Reflection(across);
   for (const Mat3& candidate : {NearestSignMatrix(free, true), free}) {
-    if (WorstAngle(candidate, bones) <= tolerance) return candidate;
+    const bool fits = std::all_of(bones.begin(), bones.end(), [&](const auto& of_joint) {
+      return Mirrors(candidate, of_joint, at_least);
+    });
+    if (fits) return candidate;
   }
   return std::nullopt;
 }
@@ -173,8 +184,8 @@ AveragePose Average(const Clip& clip, const JointRoles& roles) {
 StatusOr<std::vector<Mat3>> FindMirrorFrames(const Clip& clip, const JointRoles& roles,
                                              std::span<const int> partners) {
   const Skeleton& skeleton = *clip.skeleton();
-  POISE_ASSIGN_OR_RETURN(const BonePairs bones, CollectBones(skeleton, partners));
-  if (const auto one = RestReflection(skeleton, partners, bones, kSameDirection)) {
+  POISE_ASSIGN_OR_RETURN(const BonePairs bones, CollectBones(skeleton, roles, partners));
+  if (const auto one = RestReflection(skeleton, partners, bones, 0)) {
     return std::vector<Mat3>(skeleton.num_joints(), *one);
   }
   const auto stance = RestReflection(skeleton, partners, bones, kCaughtRestPose);
@@ -192,9 +203,10 @@ StatusOr<std::vector<Mat3>> FindMirrorFrames(const Clip& clip, const JointRoles&
                                    : Mat3(average.local[partners[j]].transpose() *
                                           frames[skeleton.parent(j)] * average.local[j]);
     const bool trunk = partners[j] == j;
-    const Mat3 signs = NearestSignMatrix(expected, trunk);
-    if (!stance && WorstAngle(signs, bones[j]) <= kSameDirection) {
-      frames[j] = signs;  // local axes are coordinate axes: no clip's average should bend them
+    // Local axes are coordinate axes as a rule: no clip's average should bend them.
+    const Mat3 plain = stance ? *stance : NearestSignMatrix(expected, trunk);
+    if (Mirrors(plain, bones[j])) {
+      frames[j] = plain;
     } else {
       frames[j] = trunk ? FitTrunkFrame(expected, bones[j]) : FitLimbFrame(expected, bones[j]);
     }

@@ -34,14 +34,16 @@ Template MakeTemplate(const BodyShape& shape) {
 
 }  // namespace
 
-PlacedBodies PlaceBodies(const BodyShapes& shapes, const WorldPoses& world) {
+void PlaceBodies(const BodyShapes& shapes, const WorldPoses& world, PlacedBodies& placed) {
   std::array<Template, kNumRequiredRoles> templates;
-  PlacedBodies placed;
   placed.num_frames = world.num_frames;
   for (int i = 0; i < kNumRequiredRoles; ++i) {
     templates[i] = MakeTemplate(shapes[i]);
     placed.radii[i] = templates[i].radius;
   }
+  placed.capsules.clear();
+  placed.lowest.clear();
+  placed.soles.clear();
   placed.capsules.reserve(static_cast<size_t>(world.num_frames) * kNumRequiredRoles);
   placed.soles.reserve(static_cast<size_t>(world.num_frames) * PlacedBodies::kFeet *
                        PlacedBodies::kCorners);
@@ -69,7 +71,6 @@ PlacedBodies PlaceBodies(const BodyShapes& shapes, const WorldPoses& world) {
     }
     placed.lowest.push_back(lowest);
   }
-  return placed;
 }
 
 }  // namespace poise::motion

@@ -37,7 +37,8 @@ struct PlacedBodies {
   }
 };
 
-PlacedBodies PlaceBodies(const BodyShapes& shapes, const WorldPoses& world);
+/// Into memory of the caller that is reused.
+void PlaceBodies(const BodyShapes& shapes, const WorldPoses& world, PlacedBodies& placed);
 
 }  // namespace poise::motion
 

@@ -12,6 +12,19 @@ namespace {
 
 constexpr int kFewestFrames = 4;  // a third difference needs four
 
+// Fresh pages cost more than the measures themselves, so each thread keeps its memory between
+// clips, unless a clip was long.
+struct Workspace {
+  static constexpr size_t kMostPositionsKept = 100'000;
+
+  WorldPoses world;
+  PlacedBodies bodies;
+
+  void Trim() {
+    if (world.positions.size() > kMostPositionsKept) *this = Workspace();
+  }
+};
+
 }  // namespace
 
 std::vector<base::Field> PlausibilityConfig::Fields() {
@@ -40,11 +53,14 @@ StatusOr<Plausibility> AssessPlausibility(const Clip& clip, const JointRoles& ro
         fmt::format("clip '{}' has {} frames, plausibility needs at least {}", clip.name(),
                     clip.num_frames(), kFewestFrames));
   }
-  const WorldPoses world = ForwardKinematics(clip);
+  thread_local Workspace workspace;
+  WorldPoses& world = workspace.world;
+  PlacedBodies& bodies = workspace.bodies;
+  ForwardKinematics(clip, 0, clip.num_frames(), world);
   const Skeleton& skeleton = *clip.skeleton();
   POISE_ASSIGN_OR_RETURN(const BodyShapes shapes,
                          MakeBodyShapes(skeleton, roles, EstimateSoles(skeleton, roles, world)));
-  const PlacedBodies bodies = PlaceBodies(shapes, world);
+  PlaceBodies(shapes, world, bodies);
   const FloorContact contact = MeasureFloorContact(bodies, clip.frame_rate(), config);
 
   Plausibility plausibility;
@@ -55,6 +71,7 @@ StatusOr<Plausibility> AssessPlausibility(const Clip& clip, const JointRoles& ro
   plausibility.self_penetration_max_m = WorstSelfPenetration(shapes, bodies);
   plausibility.acceleration_rms_mps2 = AccelerationRms(world, clip.frame_rate());
   plausibility.jerk_rms_mps3 = JerkRms(world, clip.frame_rate());
+  workspace.Trim();
   return plausibility;
 }
 

@@ -73,7 +73,9 @@ TEST(SelfPenetrationTest, TwoThighsTurnedIntoEachOtherOverlapByTheirRadii) {
   pose[roles.joint(JointRole::kRightHip)] = Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
   const Clip clip = *Clip::Create("crossed", skeleton, 30, {Vec3(0, 1, 0)}, pose);
   const BodyShapes shapes = *MakeBodyShapes(*skeleton, roles, *SolesOfRestPose(*skeleton, roles));
-  const double depth = WorstSelfPenetration(shapes, PlaceBodies(shapes, ForwardKinematics(clip)));
+  PlacedBodies bodies;
+  PlaceBodies(shapes, ForwardKinematics(clip), bodies);
+  const double depth = WorstSelfPenetration(shapes, bodies);
   EXPECT_NEAR(depth, 2 * shapes[static_cast<int>(JointRole::kLeftHip)].radius, 1e-9);
 }
 

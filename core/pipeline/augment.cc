@@ -60,6 +60,10 @@ class AugmentFlow::Implementation {
   Status CheckSources() const {
     for (size_t i = 0; i < sources_.size(); ++i) {
       const Source& source = *sources_[i];
+      if (with_plausibility_) {
+        POISE_RETURN_IF_ERROR(
+            base::Annotate(source.roles.RequireComplete(), "plausibility", SourceField(i)));
+      }
       for (const MethodStep& step : steps_) {
         POISE_RETURN_IF_ERROR(
             base::Annotate(step.synthesizer->Check(source.draft.clip, source.roles),

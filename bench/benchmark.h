@@ -1,0 +1,38 @@
+#ifndef POISE_BENCH_BENCHMARK_H_
+#define POISE_BENCH_BENCHMARK_H_
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace poise::bench {
+
+/// One measured number beside what it is compared with.
+struct Row {
+  std::string name;  ///< "ik/variants"
+  double value = 0;
+  std::string unit;  ///< "variants/s"
+  std::string peer;  ///< what the value is held against: a stated limit or another implementation
+  double ratio = 0;  ///< value / peer's value; above 1 is better than the peer
+  int threads = 1;
+};
+
+/// A group of benchmarks: chosen by name with --filter.
+struct Benchmark {
+  const char* name;
+  std::vector<Row> (*run)();
+};
+
+/// All of them, one line each.
+const std::vector<Benchmark>& Benchmarks();
+
+std::vector<Row> RunIkBenchmark();
+
+/// How often `work` runs in one second of this thread's own computing time, which other processes
+/// do not take away: the best of several rounds that last `round_seconds` each, after one to warm
+/// up. `work` must not hand its work to other threads.
+double MeasureRate(const std::function<void()>& work, double round_seconds = 0.5);
+
+}  // namespace poise::bench
+
+#endif  // POISE_BENCH_BENCHMARK_H_

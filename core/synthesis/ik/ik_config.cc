@@ -22,6 +22,7 @@ StatusOr<IkConfig> IkConfig::FromPreset(std::string_view preset, const ActionCla
   config.keyframe_rule = "paper";
   config.propagation = "ramp";
   config.profile = "linear";
+  config.spread = "position";
   config.bend_plane = "kept";
   return config;
 }
@@ -41,6 +42,7 @@ std::vector<base::Field> IkConfig::Fields() {
       base::Text("propagation", &propagation, {"window", "ramp"}),
       base::Number("window_s", &window_s, 1e-3, 1e3),
       base::Text("profile", &profile, {"minimum_jerk", "linear"}),
+      base::Text("spread", &spread, {"limb", "position"}),
       base::Text("solver", &solver, {"exact", "iterative"}),
       base::Number("tolerance", &tolerance, 1e-9, 1e-1),
       base::Number("max_iterations", &max_iterations, 1, 10'000),

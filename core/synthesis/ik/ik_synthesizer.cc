@@ -60,7 +60,7 @@ class BoundIk : public BoundSynthesizer {
 
   StatusOr<Draft> Sample(base::Random& random, const base::RunContext& context) const override {
     const Vec3 target = fan_.Sample(random);
-    const Vec3 displacement = target - motion_.end(keyframe_);
+    const LimbMotion::Edit edit = motion_.Plan(keyframe_, target);
     Draft draft{.clip = source_.clip, .ik = {}};
     Vec3 reached = motion_.end(keyframe_);
     for (size_t i = 0; i < propagation_.weights.size(); ++i) {
@@ -68,7 +68,7 @@ class BoundIk : public BoundSynthesizer {
       const double weight = propagation_.weights[i];
       if (weight == 0) continue;
       const int frame = propagation_.first + static_cast<int>(i);
-      const Vec3 end = motion_.Displace(frame, weight * displacement, draft.clip);
+      const Vec3 end = motion_.Apply(frame, weight, edit, draft.clip);
       if (frame == keyframe_) reached = end;
     }
     draft.ik = api::IkOutcome{.end_effector = end_role_,

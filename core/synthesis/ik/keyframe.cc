@@ -14,8 +14,6 @@ constexpr int kFramesAtOnce = 256;
 struct Excursion {
   int frame = 0;  // of the largest distance
   double largest = -1;
-  double smallest = 0;
-  double range() const { return largest - smallest; }
 };
 
 std::vector<int> CandidateFrames(int num_frames, double frame_rate, bool on_grid) {
@@ -40,8 +38,6 @@ Excursion FindExcursion(const std::vector<Vec3>& a, const std::vector<Vec3>& b,
     Vec3 between = a[frame] - b[frame];
     if (horizontal) between.y() = 0;
     const double distance = between.norm();
-    if (excursion.largest < 0) excursion.smallest = distance;
-    excursion.smallest = std::min(excursion.smallest, distance);
     if (distance > excursion.largest) {
       excursion.largest = distance;
       excursion.frame = frame;
@@ -93,9 +89,7 @@ Keyframe SelectKeyframe(const EndEffectorTracks& tracks, bool two_sided, const I
   Excursion right, left;
   if (!tracks.right.empty()) right = FindExcursion(tracks.right, tracks.pelvis, frames, !paper);
   if (!tracks.left.empty()) left = FindExcursion(tracks.left, tracks.pelvis, frames, !paper);
-  const bool left_wins = tracks.right.empty() ||
-                         (!tracks.left.empty() &&
-                          (paper ? left.largest > right.largest : left.range() > right.range()));
+  const bool left_wins = left.largest > right.largest;  // -1 where a side is no candidate
   keyframe.side = left_wins ? Side::kLeft : Side::kRight;
   keyframe.frame = by_hand ? config.keyframe : (left_wins ? left : right).frame;
   return keyframe;

@@ -30,12 +30,12 @@ struct Keyframe {
 };
 
 /// The frame at which a clip is edited, and the active side among the candidates.
-/// Rule `reference`, horizontal distances on a 30 Hz grid: one-sided classes take the side whose
-/// end effector swings farthest from the pelvis (largest distance less its smallest: the reference
-/// mirrors its clips by file name so that it is always the right one), at the largest distance;
-/// two-sided classes the frame where both are farthest apart, and the side that leads in the
-/// pelvis's direction of travel. Rule `paper`: the frame and side with the largest distance from
-/// the pelvis, in space and over all frames. A frame given in `config` wins over the rule's.
+/// Rule `reference`, horizontal distances on a 30 Hz grid: one-sided classes take the frame and the
+/// side with the largest distance from the pelvis (the reference mirrors its clips by file name, so
+/// that the right side is always the active one); two-sided classes the frame where both are
+/// farthest apart, and the side that leads in the pelvis's direction of travel. Rule `paper`: the
+/// frame and side with the largest distance from the pelvis, in space and over all frames. A frame
+/// given in `config` wins over the rule's.
 /// Source: MotionAug sec. 3.2, 4.3; reference sec. 3.2.
 Keyframe SelectKeyframe(const EndEffectorTracks& tracks, bool two_sided, const IkConfig& config);
 

@@ -143,6 +143,8 @@ v1::ClipFormat ToProto(motion::ClipFormat format) {
       return v1::CLIP_FORMAT_NPZ;
     case motion::ClipFormat::kCmuText:
       return v1::CLIP_FORMAT_CMU_TEXT;
+    case motion::ClipFormat::kDeepMimic:
+      return v1::CLIP_FORMAT_DEEPMIMIC;
     case motion::ClipFormat::kUnknown:
       break;
   }
@@ -161,6 +163,8 @@ StatusOr<motion::ClipFormat> FromProto(v1::ClipFormat format) {
       return motion::ClipFormat::kNpz;
     case v1::CLIP_FORMAT_CMU_TEXT:
       return motion::ClipFormat::kCmuText;
+    case v1::CLIP_FORMAT_DEEPMIMIC:
+      return motion::ClipFormat::kDeepMimic;
     default:
       return base::InvalidArgument(
           "UNKNOWN_FORMAT", "format",

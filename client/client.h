@@ -43,7 +43,8 @@ class Client {
   ~Client();
 
   /// Starts the stream of variants. Sources too large for one message are uploaded first
-  /// (ClientOptions::inline_bytes); arrays travel in single precision, or as BVH when uploaded.
+  /// (ClientOptions::inline_bytes); arrays travel in single precision, or as BVH
+  /// when uploaded (then the joints come back in depth-first order).
   /// Errors: those of AugmentSpec::Validate here, the others from the stream.
   StatusOr<std::unique_ptr<VariantStream>> Augment(api::AugmentSpec spec);
 

@@ -19,10 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kDescription[] =
-    "Make variants of motion clips on a Poise server and write them as BVH files, in the unit, "
-    "axes and channels of a source that is BVH itself. A method is a chain of steps joined by '+': "
-    "ik moves the hand or foot that acts to new targets around where it went, timewarp changes the "
-    "speed, noise shakes the joints, mirror swaps the sides. The same seed gives the same files.";
+    "Make variants of motion clips on a Poise server.\n\n"
+    "They are written as BVH files, in the unit, axes and channels of a source that is BVH itself. "
+    "A method is a chain of steps joined by '+': ik moves the hand or foot that acts to new "
+    "targets "
+    "around where it went, timewarp changes the speed, noise shakes the joints, mirror swaps the "
+    "sides. The same seed gives the same files. The table at the end compares how plausible the "
+    "variants look with their source.";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise augment kick.bvh -n 20 --seed 1 --out kicks\n"
@@ -186,19 +189,25 @@ Status RunAugment(AugmentOptions& options, const Console& console) {
 
 void AddSpecFlags(CLI::App& command, AugmentOptions& options) {
   command.add_option("--method", options.spec.method, "Steps: ik, timewarp, noise, mirror")
+      ->type_name("STEPS")
       ->capture_default_str();
   command
       .add_option("--class", options.spec.action_class,
                   "What the clip shows, which sets where IK targets lie: kick, punch, walk, jog, "
                   "sneak, grab, deposit or throw")
+      ->type_name("NAME")
       ->capture_default_str();
   command.add_option("--preset", options.spec.preset, "recommended or paper (as MotionAug did)")
+      ->type_name("NAME")
       ->capture_default_str();
   command.add_option("-n,--variants", options.spec.variants_per_source, "Variants of each file")
+      ->type_name("N")
       ->capture_default_str();
   command.add_option("--seed", options.spec.seed, "Seed of all random choices")
+      ->type_name("N")
       ->capture_default_str();
-  command.add_option("--set", options.assignments, "A hyper-parameter, KEY=VALUE; repeatable")
+  command.add_option("--set", options.assignments, "A hyper-parameter; repeatable")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
 }
 
@@ -208,13 +217,18 @@ Command AddAugmentCommand(CLI::App& app, const Console& console) {
   auto options = std::make_shared<AugmentOptions>();
   CLI::App* command = app.add_subcommand("augment", kDescription);
   command->footer(kFooter);
-  command->add_option("FILE", options->files, "Motion files")->required();
+  command->add_option("FILE", options->files, "Motion files")->type_name("")->required();
   AddSpecFlags(*command, *options);
   command->add_option("--out", options->out, "Folder for the BVH files, made when absent")
+      ->type_name("FOLDER")
       ->capture_default_str();
-  command->add_option("--server", options->connection.server, "HOST:PORT, also from POISE_SERVER")
+  command
+      ->add_option("--server", options->connection.server,
+                   "HOST:PORT of the server; also from POISE_SERVER")
+      ->type_name("ADDRESS")
       ->capture_default_str();
-  command->add_option("--timeout", options->timeout_s, "Give up after this many seconds");
+  command->add_option("--timeout", options->timeout_s, "Give up after this many seconds")
+      ->type_name("SECONDS");
   AddReaderFlags(*command, options->reader);
   AddJsonFlag(*command);
   return {command, [options, &console] { return RunAugment(*options, console); }};

@@ -58,14 +58,24 @@ StatusOr<motion::ClipFile> DecodeAs(const std::filesystem::path& path, const std
 void AddReaderFlags(CLI::App& app, ReaderFlags& flags) {
   constexpr char kGroup[] = "What the file does not say (default: detect)";
   app.add_option("--unit", flags.unit, "Length unit of the file: m, cm, mm, inch or metres (0.056)")
+      ->type_name("UNIT")
       ->group(kGroup);
-  app.add_option("--up", flags.up, "Axis that points up in the file: y or z")->group(kGroup);
-  app.add_option("--fps", flags.fps, "Frames per second of the file")->group(kGroup);
-  app.add_option("--asf", flags.asf, "Skeleton (ASF file) of an AMC file")->group(kGroup);
+  app.add_option("--up", flags.up, "Axis that points up in the file: y or z")
+      ->type_name("AXIS")
+      ->group(kGroup);
+  app.add_option("--fps", flags.fps, "Frames per second of the file")
+      ->type_name("RATE")
+      ->group(kGroup);
+  app.add_option("--asf", flags.asf, "Skeleton (ASF file) of an AMC file")
+      ->type_name("FILE")
+      ->group(kGroup);
   app.add_option("--roles", flags.roles,
                  "JSON file that maps joints by hand: {\"left_hip\": \"LeftUpLeg\", ...}")
+      ->type_name("FILE")
       ->group(kGroup);
-  app.add_option("--format", flags.format, "File format: bvh, amc, npz or cmu_text")->group(kGroup);
+  app.add_option("--format", flags.format, "File format: bvh, amc, npz, cmu_text or deepmimic_json")
+      ->type_name("NAME")
+      ->group(kGroup);
 }
 
 StatusOr<LoadedClip> LoadClip(const std::filesystem::path& path, const ReaderFlags& flags) {

@@ -15,10 +15,10 @@ namespace poise::cli {
 namespace {
 
 constexpr char kDescription[] =
-    "Read a motion file of any format and write it as BVH. A BVH file keeps its unit, up axis and "
-    "channel order; other formats come out in centimetres, Y up, channels Z X Y. Edits on the way, "
-    "in this order: fewer joints, another body, left and right swapped, moved to the origin, "
-    "another frame rate.";
+    "Turn a motion file of any format into BVH, with edits on the way.\n\n"
+    "A BVH file keeps its unit, up axis and channel order; other formats come out in centimetres, "
+    "Y up, channels Z X Y. The edits are done in this order: fewer joints, another body, left and "
+    "right swapped, moved to the origin, another frame rate.";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise convert kick.amc kick.bvh\n"
@@ -146,16 +146,23 @@ Status RunConvert(const ConvertOptions& options, const Console& console) {
 }
 
 void AddEditFlags(CLI::App& command, ConvertOptions& options) {
-  command.add_option("--reduce", options.reduce,
-                     "Keep the 16 joints of MotionAug; how to treat turns of the others: composed "
-                     "(passed on) or reference (lost, as in its program)");
-  command.add_option("--retarget", options.retarget,
-                     "Put the motion on the body in this motion file, written as that file is");
+  command
+      .add_option("--reduce", options.reduce,
+                  "Keep the 16 joints of MotionAug; how to treat turns of the others: composed "
+                  "(passed on) or reference (lost, as in its program)")
+      ->type_name("MODE");
+  command
+      .add_option("--retarget", options.retarget,
+                  "Put the motion on the body in this motion file, written as that file is")
+      ->type_name("FILE");
   command.add_flag("--mirror", options.mirror, "Swap left and right");
   command.add_flag("--align", options.align, "Move the start to the origin, facing +Z");
-  command.add_option("--to-fps", options.to_fps, "Resample to this many frames per second");
-  command.add_option("--to-unit", options.to_unit, "Write lengths in m, cm, mm, inch or metres");
-  command.add_option("--to-up", options.to_up, "Write with this axis up: y or z");
+  command.add_option("--to-fps", options.to_fps, "Resample to this many frames per second")
+      ->type_name("RATE");
+  command.add_option("--to-unit", options.to_unit, "Write lengths in m, cm, mm, inch or metres")
+      ->type_name("UNIT");
+  command.add_option("--to-up", options.to_up, "Write with this axis up: y or z")
+      ->type_name("AXIS");
 }
 
 }  // namespace
@@ -164,8 +171,8 @@ Command AddConvertCommand(CLI::App& app, const Console& console) {
   auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = app.add_subcommand("convert", kDescription);
   command->footer(kFooter);
-  command->add_option("IN", options->in, "Motion file")->required();
-  command->add_option("OUT", options->out, "BVH file to write")->required();
+  command->add_option("IN", options->in, "Motion file")->type_name("")->required();
+  command->add_option("OUT", options->out, "BVH file to write")->type_name("")->required();
   AddEditFlags(*command, *options);
   AddReaderFlags(*command, options->reader);
   AddJsonFlag(*command);

@@ -13,9 +13,9 @@ namespace poise::cli {
 namespace {
 
 constexpr char kDescription[] =
-    "Write where every joint is, by forward kinematics, as CSV with the columns "
-    "frame,joint,x,y,z: metres, Y up, frames counted from 0. The tip of a bone that no joint ends "
-    "is a row named JOINT_end.";
+    "Write where every joint is, as CSV.\n\n"
+    "Forward kinematics of the frames that are asked for: columns frame,joint,x,y,z in metres, Y "
+    "up, frames counted from 0. The tip of a bone that no joint ends is a row named JOINT_end.";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise fk kick.bvh --frames 0,50 --out kick.csv\n"
@@ -136,9 +136,11 @@ Command AddFkCommand(CLI::App& app, const Console& console) {
   auto options = std::make_shared<FkOptions>();
   CLI::App* command = app.add_subcommand("fk", kDescription);
   command->footer(kFooter);
-  command->add_option("FILE", options->file, "Motion file")->required();
-  command->add_option("--frames", options->frames, "Frames and ranges: 0,50,60-70 (default: all)");
-  command->add_option("--out", options->out, "CSV file to write (default: standard output)");
+  command->add_option("FILE", options->file, "Motion file")->type_name("")->required();
+  command->add_option("--frames", options->frames, "Frames and ranges: 0,50,60-70 (default: all)")
+      ->type_name("LIST");
+  command->add_option("--out", options->out, "CSV file to write (default: standard output)")
+      ->type_name("FILE");
   AddReaderFlags(*command, options->reader);
   AddJsonFlag(*command);
   return {command, [options, &console] { return RunFk(*options, console); }};

@@ -11,10 +11,11 @@ namespace poise::cli {
 namespace {
 
 constexpr char kDescription[] =
-    "Say what is in a motion file: format, length, skeleton, which joint plays which role, and how "
-    "plausible the motion looks (foot skating, floor, self-penetration, acceleration, jerk). What "
-    "the file does not state itself (unit, up axis, an AMC's frame rate) is detected from the size "
-    "of the body; the notes say how.";
+    "Say what is in motion files.\n\n"
+    "Format, length, skeleton, which joint plays which role, and how plausible the motion looks "
+    "(foot skating, floor, self-penetration, acceleration, jerk). What the file does not state "
+    "itself (unit, up axis, an AMC's frame rate) is detected from the size of the body; the notes "
+    "say how.";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise info kick.bvh\n"
@@ -120,7 +121,7 @@ Command AddInfoCommand(CLI::App& app, const Console& console) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command = app.add_subcommand("info", kDescription);
   command->footer(kFooter);
-  command->add_option("FILE", options->files, "Motion files")->required();
+  command->add_option("FILE", options->files, "Motion files")->type_name("")->required();
   AddReaderFlags(*command, options->reader);
   AddJsonFlag(*command);
   return {command, [options, &console] { return RunInfo(*options, console); }};

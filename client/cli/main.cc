@@ -1,17 +1,20 @@
 // poise: the command line client. Each sub-command has its own file.
+#include <memory>
 #include <string_view>
 #include <vector>
 
 #include "client/cli/commands.h"
+#include "client/cli/help_format.h"
 #include "core/base/version.h"
 
 namespace poise::cli {
 namespace {
 
 constexpr char kDescription[] =
-    "Poise: human motion in, more and better human motion out.\n\n"
-    "Reads BVH, ASF/AMC, AMASS-style npz and CMU exponential-map text. `info`, `convert` and `fk`\n"
-    "work on files alone; `augment` asks a Poise server (POISE_SERVER, default 127.0.0.1:50051).";
+    "Human motion in, more and better human motion out.\n\n"
+    "Reads BVH, ASF/AMC, AMASS-style npz, CMU exponential-map text and DeepMimic JSON. info, "
+    "convert and fk work "
+    "on files alone; augment asks a Poise server (POISE_SERVER, default 127.0.0.1:50051).";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise info kick.bvh\n"
@@ -30,6 +33,7 @@ bool AsksForJson(int argc, char** argv) {
 
 Status Main(const Console& console, int argc, char** argv) {
   CLI::App app(kDescription, "poise");
+  app.formatter(std::make_shared<HelpFormat>());
   app.footer(kFooter);
   app.set_version_flag("--version", std::string("poise ") + base::Version());
   const std::vector<Command> commands = {

@@ -14,11 +14,10 @@ namespace poise::motion {
 /// negate two components of each quaternion). Where it is not (limbs with mirrored local axes, or
 /// a rest pose caught from a real stance), each joint gets its own map between its frame and its
 /// partner's, found from the bones and, for the turn about a bone that bones cannot tell, from the
-/// average pose of this clip. "Symmetric" allows for how real bodies were calibrated: every HDM05
-/// and CMU skeleton follows the paper's rule. Mirroring twice gives the clip back: bit for bit
-/// under MotionAug's rule, else to rounding. Errors: kFailedPrecondition MISSING_ROLES,
-/// ASYMMETRIC_SKELETON (partners hang off joints that are no partners, or bones differ by more than
-/// 15 % and 1 cm between the sides).
+/// average pose of this clip.
+/// Mirroring twice gives the clip back: bit for bit under MotionAug's rule, else to rounding.
+/// Errors: kFailedPrecondition MISSING_ROLES, ASYMMETRIC_SKELETON (partners hang off joints that
+/// are no partners, or bones differ by more than 15 % and 1 cm between the sides).
 StatusOr<Clip> Mirror(const Clip& clip, const JointRoles& roles);
 
 }  // namespace poise::motion

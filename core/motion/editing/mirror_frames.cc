@@ -16,14 +16,11 @@ namespace {
 using math::Mat3;
 
 constexpr double kShortBone = 0.02;  // [m] directions of shorter bones say nothing
-// Within these angles [rad] two bones count as mirror images where one reflection is to serve the
-// whole body. On limbs 3 degrees, where more is a rest pose caught from a stance; elsewhere more is
-// the shape of a body as it was calibrated: 10 for feet and hands (HDM05 differs by up to 8), 15 to
-// hips and shoulders (HDM05: 12), 30 along the trunk, which leans out of the plane by half of it.
+// Within these angles [rad] two bones count as mirror images: 3 degrees on limbs, where more is a
+// rest pose caught from a stance, but 15 on the bones up to hips and shoulders, where it is the
+// shape of the body (HDM05's collars differ by 11).
 constexpr double kSameLimb = 0.0524;
-constexpr double kSameExtremity = 0.175;
 constexpr double kSameGirdle = 0.262;
-constexpr double kSameTrunk = 0.524;
 constexpr double kCaughtRestPose = 0.785;  // 45 degrees: a stance, feet turned out
 constexpr double kLengthRatio = 0.15;      // bones of the two sides may differ by this part
 constexpr double kLengthSlack = 0.01;      // [m] and this much
@@ -43,31 +40,14 @@ Mat3 Reflection(const Vec3& normal) {
   return Mat3::Identity() - 2 * normal * normal.transpose() / normal.squaredNorm();
 }
 
-// Per joint, the tolerance of the bone that ends in it.
-std::vector<double> BoneTolerances(const Skeleton& skeleton, const JointRoles& roles,
-                                   std::span<const int> partners) {
-  std::vector<double> tolerances(skeleton.num_joints(), kSameLimb);
-  for (const JointRole role : {JointRole::kLeftHip, JointRole::kRightHip, JointRole::kLeftShoulder,
-                               JointRole::kRightShoulder}) {
-    for (const int joint : skeleton.ChainToRoot(roles.joint(role))) tolerances[joint] = kSameGirdle;
-  }
-  for (int j = 0; j < skeleton.num_joints(); ++j) {
-    if (partners[j] == j) tolerances[j] = kSameTrunk;
-    for (const JointRole role : {JointRole::kLeftAnkle, JointRole::kRightAnkle,
-                                 JointRole::kLeftWrist, JointRole::kRightWrist}) {
-      const int parent = skeleton.parent(j);
-      const bool beyond =
-          parent >= 0 && (parent == roles.joint(role) || tolerances[parent] == kSameExtremity);
-      if (beyond) tolerances[j] = kSameExtremity;
-    }
-  }
-  return tolerances;
-}
-
 StatusOr<BonePairs> CollectBones(const Skeleton& skeleton, const JointRoles& roles,
                                  std::span<const int> partners) {
   BonePairs bones(skeleton.num_joints());
-  const std::vector<double> tolerances = BoneTolerances(skeleton, roles, partners);
+  std::vector<bool> girdle(skeleton.num_joints(), false);  // up to hips and shoulders
+  for (const JointRole role : {JointRole::kLeftHip, JointRole::kRightHip, JointRole::kLeftShoulder,
+                               JointRole::kRightShoulder}) {
+    for (const int joint : skeleton.ChainToRoot(roles.joint(role))) girdle[joint] = true;
+  }
   for (int j = 0; j < skeleton.num_joints(); ++j) {
     const auto add = [&](const Vec3& bone, const Vec3& image, double tolerance,
                          const std::string& name) -> Status {
@@ -84,23 +64,22 @@ StatusOr<BonePairs> CollectBones(const Skeleton& skeleton, const JointRoles& rol
     };
     for (const int child : skeleton.children(j)) {
       const Joint& joint = skeleton.joint(child);
-      POISE_RETURN_IF_ERROR(
-          add(joint.offset, skeleton.joint(partners[child]).offset, tolerances[child], joint.name));
+      POISE_RETURN_IF_ERROR(add(joint.offset, skeleton.joint(partners[child]).offset,
+                                girdle[child] ? kSameGirdle : kSameLimb, joint.name));
     }
     const auto &tip = skeleton.joint(j).end_site, &tip_image = skeleton.joint(partners[j]).end_site;
     if (tip && tip_image) {
-      POISE_RETURN_IF_ERROR(add(*tip, *tip_image, std::max(tolerances[j], kSameExtremity),
-                                "the tip of " + skeleton.joint(j).name));
+      POISE_RETURN_IF_ERROR(
+          add(*tip, *tip_image, kSameLimb, "the tip of " + skeleton.joint(j).name));
     }
   }
   return bones;
 }
 
-// Whether `frame` takes every bone to its image, within the bone's own tolerance unless given.
-bool Mirrors(const Mat3& frame, std::span<const BonePair> bones,
-             std::optional<double> tolerance = std::nullopt) {
+// Whether `frame` takes every bone to its image, within the bone's own tolerance or this one.
+bool Mirrors(const Mat3& frame, std::span<const BonePair> bones, double at_least = 0) {
   return std::all_of(bones.begin(), bones.end(), [&](const BonePair& pair) {
-    return Angle(frame * pair.bone, pair.image) <= tolerance.value_or(pair.tolerance);
+    return Angle(frame * pair.bone, pair.image) <= std::max(pair.tolerance, at_least);
   });
 }
 
@@ -154,10 +133,9 @@ Mat3 FitLimbFrame(const Mat3& expected, std::span<const BonePair> bones) {
 }
 
 // The plane that mirrors the rest pose, if the rest pose is symmetric at all: one reflection for
-// every joint, each bone within its own tolerance unless given.
+// every joint, each bone within its own tolerance or `at_least`.
 std::optional<Mat3> RestReflection(const Skeleton& skeleton, std::span<const int> partners,
-                                   const BonePairs& bones,
-                                   std::optional<double> tolerance = std::nullopt) {
+                                   const BonePairs& bones, double at_least) {
   std::vector<Vec3> rest(skeleton.num_joints(), Vec3::Zero());
   Vec3 across = Vec3::Zero();
   for (int j = 1; j < skeleton.num_joints(); ++j) {
@@ -171,7 +149,7 @@ std::optional<Mat3> RestReflection(const Skeleton& skeleton, std::span<const int
   const Mat3 free = Reflection(across);
   for (const Mat3& candidate : {NearestSignMatrix(free, true), free}) {
     const bool fits = std::all_of(bones.begin(), bones.end(), [&](const auto& of_joint) {
-      return Mirrors(candidate, of_joint, tolerance);
+      return Mirrors(candidate, of_joint, at_least);
     });
     if (fits) return candidate;
   }
@@ -207,7 +185,7 @@ StatusOr<std::vector<Mat3>> FindMirrorFrames(const Clip& clip, const JointRoles&
                                              std::span<const int> partners) {
   const Skeleton& skeleton = *clip.skeleton();
   POISE_ASSIGN_OR_RETURN(const BonePairs bones, CollectBones(skeleton, roles, partners));
-  if (const auto one = RestReflection(skeleton, partners, bones)) {
+  if (const auto one = RestReflection(skeleton, partners, bones, 0)) {
     return std::vector<Mat3>(skeleton.num_joints(), *one);
   }
   const auto stance = RestReflection(skeleton, partners, bones, kCaughtRestPose);
@@ -227,7 +205,7 @@ StatusOr<std::vector<Mat3>> FindMirrorFrames(const Clip& clip, const JointRoles&
     const bool trunk = partners[j] == j;
     // Local axes are coordinate axes as a rule: no clip's average should bend them.
     const Mat3 plain = stance ? *stance : NearestSignMatrix(expected, trunk);
-    if (Mirrors(plain, bones[j], stance ? std::optional(kSameLimb) : std::nullopt)) {
+    if (Mirrors(plain, bones[j])) {
       frames[j] = plain;
     } else {
       frames[j] = trunk ? FitTrunkFrame(expected, bones[j]) : FitLimbFrame(expected, bones[j]);

@@ -23,9 +23,12 @@ bool StartsWith(const char* text, const char* prefix) {
   return true;
 }
 
+char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+// OpenBLAS compares names without regard to case.
 bool Equals(const char* a, const char* b) {
-  while (*a != '\0' && *a == *b) ++a, ++b;
-  return *a == *b;
+  while (*a != '\0' && Lower(*a) == Lower(*b)) ++a, ++b;
+  return Lower(*a) == Lower(*b);
 }
 
 struct CpuFeatures {

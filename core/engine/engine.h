@@ -6,16 +6,19 @@
 
 #include "core/api/augment_spec.h"
 #include "core/artifacts/artifact_store.h"
+#include "core/base/run_context.h"
 #include "core/base/status.h"
 #include "core/base/telemetry.h"
 #include "core/base/thread_pool.h"
-#include "core/pipeline/augment.h"
+#include "core/engine/augment_run.h"
 
 namespace poise::engine {
 
 struct EngineConfig {
   std::filesystem::path data_dir;  ///< artifacts live below it; made when absent
   int compute_threads = 0;         ///< <= 0: one per available CPU
+  /// [frames, > 0] Frames that one request may ask for: variants times the frames of their sources.
+  int64_t max_output_frames = 2'000'000'000;
 };
 
 /// Everything that outlives a request, built once per process: what the handlers call.
@@ -27,16 +30,22 @@ class Engine {
                                                   base::Telemetry& telemetry);
 
   /// Resolves the sources (decodes files, reads artifacts) and prepares their variants. The caller
-  /// runs AugmentFlow::Make on compute().
-  StatusOr<std::unique_ptr<pipeline::AugmentFlow>> PrepareAugment(const api::AugmentSpec& spec);
+  /// runs AugmentRun::Make on compute(), while this engine lives.
+  /// Errors: those of ClipCatalog::Resolve and AugmentFlow::Create with the field "sources[i]";
+  /// kInvalidArgument REQUEST_TOO_LARGE; kCancelled, kDeadlineExceeded.
+  StatusOr<std::unique_ptr<AugmentRun>> PrepareAugment(api::AugmentSpec spec,
+                                                       const base::RunContext& context);
 
   artifacts::ArtifactStore& artifacts() { return *artifacts_; }
   base::ThreadPool& compute() { return *compute_; }
 
  private:
-  Engine() = default;
+  Engine(EngineConfig config, std::unique_ptr<artifacts::ArtifactStore> artifacts,
+         base::Telemetry& telemetry);
 
+  EngineConfig config_;
   std::unique_ptr<artifacts::ArtifactStore> artifacts_;
+  base::Counter& sources_resolved_;
   std::unique_ptr<base::ThreadPool> compute_;
 };
 

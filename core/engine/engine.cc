@@ -1,0 +1,70 @@
+#include "core/engine/engine.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "core/engine/clip_catalog.h"
+
+namespace poise::engine {
+namespace {
+
+// A BVH file is written as it was read; what came as arrays or in another format, as usual: in
+// centimetres.
+motion::SourceConvention FileConvention(CatalogClip& clip) {
+  const bool was_bvh = clip.convention && clip.convention->format == motion::ClipFormat::kBvh;
+  if (was_bvh) return *std::move(clip.convention);
+  motion::SourceConvention usual;
+  usual.unit_m = 0.01;
+  return usual;
+}
+
+}  // namespace
+
+StatusOr<std::unique_ptr<Engine>> Engine::Create(const EngineConfig& config,
+                                                 base::Telemetry& telemetry) {
+  POISE_ASSIGN_OR_RETURN(std::unique_ptr<artifacts::ArtifactStore> artifacts,
+                         artifacts::ArtifactStore::Create({.root = config.data_dir / "artifacts"}));
+  return std::unique_ptr<Engine>(new Engine(config, std::move(artifacts), telemetry));
+}
+
+Engine::Engine(EngineConfig config, std::unique_ptr<artifacts::ArtifactStore> artifacts,
+               base::Telemetry& telemetry)
+    : config_(std::move(config)),
+      artifacts_(std::move(artifacts)),
+      sources_resolved_(telemetry.counter("poise_augment_sources_total",
+                                          "Source clips decoded for augmentation", {})),
+      compute_(std::make_unique<base::ThreadPool>(config_.compute_threads)) {}
+
+StatusOr<std::unique_ptr<AugmentRun>> Engine::PrepareAugment(api::AugmentSpec spec,
+                                                             const base::RunContext& context) {
+  POISE_RETURN_IF_ERROR(spec.Validate());
+  const ClipCatalog catalog(*artifacts_);
+  std::vector<pipeline::ResolvedSource> sources;
+  std::vector<motion::SourceConvention> conventions;
+  int64_t output_frames = 0;
+  for (size_t i = 0; i < spec.sources.size(); ++i) {
+    POISE_RETURN_IF_ERROR(context.Check());
+    StatusOr<CatalogClip> clip = catalog.Resolve(std::move(spec.sources[i]));
+    const std::string field = fmt::format("sources[{}]", i);
+    if (!clip.ok()) return base::Annotate(clip.status(), field, field);
+    output_frames += int64_t{clip->source.clip.num_frames()} * spec.variants_per_source;
+    if (output_frames > config_.max_output_frames) {
+      return base::InvalidArgument(
+          "REQUEST_TOO_LARGE", "variants_per_source",
+          fmt::format("{} variants of {} sources have more than {} frames together: ask for fewer "
+                      "in one request",
+                      spec.variants_per_source, spec.sources.size(), config_.max_output_frames));
+    }
+    conventions.push_back(FileConvention(*clip));
+    sources.push_back(std::move(clip->source));
+    sources_resolved_.Increment();
+  }
+  POISE_ASSIGN_OR_RETURN(std::unique_ptr<pipeline::AugmentFlow> flow,
+                         pipeline::AugmentFlow::Create(spec, std::move(sources)));
+  return std::make_unique<AugmentRun>(std::move(flow), spec.output, std::move(conventions),
+                                      *artifacts_);
+}
+
+}  // namespace poise::engine

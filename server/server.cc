@@ -1,0 +1,111 @@
+#include "server/server.h"
+
+#include <fmt/format.h>
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/resource_quota.h>
+#include <grpcpp/server_builder.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "server/interceptors/request_log.h"
+
+namespace poise::server {
+namespace {
+
+constexpr int kMaxStreamsPerConnection = 256;
+constexpr int kKeepaliveMs = 60'000;         // asks a silent client whether it is still there
+constexpr int kKeepaliveTimeoutMs = 20'000;  // and takes it for dead after this
+constexpr int kMinClientPingMs = 20'000;     // clients may ask that often
+constexpr int kConnectionAgeMs = 300'000;    // then new calls spread over the servers again
+constexpr int kMaxSynchronousThreads = 32;   // reflection, the one service of the synchronous kind
+
+// Connections are told to go after kConnectionAgeMs, but a stream may live as long as its method
+// allows: cutting it after minutes would make an all-night Augment impossible.
+int ConnectionGraceMs(const MethodPolicies& methods) {
+  const absl::Duration longest = std::max(
+      {methods.augment.max_deadline, methods.upload.max_deadline, methods.download.max_deadline});
+  return static_cast<int>(absl::ToInt64Milliseconds(longest));
+}
+
+void SetChannelArguments(const ServerConfig& config, grpc::ServerBuilder& builder) {
+  // Two servers on one port would both seem to work.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxStreamsPerConnection);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
+                             kMinClientPingMs);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, kConnectionAgeMs);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS,
+                             ConnectionGraceMs(config.methods));
+  builder.SetMaxReceiveMessageSize(config.max_message_bytes);
+  builder.SetMaxSendMessageSize(config.max_message_bytes);
+  grpc::ResourceQuota quota("poised");
+  quota.Resize(config.max_transport_bytes).SetMaxThreads(kMaxSynchronousThreads);
+  builder.SetResourceQuota(quota);
+  builder.SetSyncServerOption(grpc::ServerBuilder::NUM_CQS, 1);
+  builder.SetSyncServerOption(grpc::ServerBuilder::MIN_POLLERS, 1);
+  builder.SetSyncServerOption(grpc::ServerBuilder::MAX_POLLERS, 1);
+}
+
+}  // namespace
+
+StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config, engine::Engine& engine,
+                                                base::Telemetry& telemetry) {
+  auto server = std::unique_ptr<Server>(new Server(config, engine, telemetry));
+  POISE_RETURN_IF_ERROR(server->Listen(config, telemetry));
+  return server;
+}
+
+Server::Server(const ServerConfig& config, engine::Engine& engine, base::Telemetry& telemetry)
+    : admission_(config.admission, telemetry),
+      augmentation_(engine, admission_, config.methods.augment, telemetry),
+      artifacts_(engine.artifacts(), admission_, config.methods) {}
+
+Server::~Server() {
+  if (server_) Shutdown(absl::InfinitePast());
+}
+
+Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
+  grpc::EnableDefaultHealthCheckService(true);
+  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  grpc::ServerBuilder builder;
+  SetChannelArguments(config, builder);
+  int port = 0;
+  builder.AddListeningPort(config.listen, grpc::InsecureServerCredentials(), &port);
+  builder.RegisterService(&augmentation_);
+  builder.RegisterService(&artifacts_);
+  builder.RegisterCallbackGenericService(&unknown_method_);
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+  interceptors.push_back(std::make_unique<RequestLogFactory>(telemetry));
+  builder.experimental().SetInterceptorCreators(std::move(interceptors));
+  server_ = builder.BuildAndStart();
+  if (server_ == nullptr || port == 0) {
+    server_ = nullptr;
+    return base::FailedPrecondition(
+        "CANNOT_LISTEN", "listen",
+        fmt::format("cannot listen on {}: another program has the port, or the address is not "
+                    "this machine's",
+                    config.listen));
+  }
+  address_ = fmt::format("{}:{}", config.listen.substr(0, config.listen.rfind(':')), port);
+  for (const char* service :
+       {v1::AugmentationService::service_full_name(), v1::ArtifactService::service_full_name()}) {
+    server_->GetHealthCheckService()->SetServingStatus(service, true);
+  }
+  return absl::OkStatus();
+}
+
+void Server::AnnounceShutdown() { server_->GetHealthCheckService()->SetServingStatus(false); }
+
+void Server::Shutdown(absl::Time deadline) {
+  admission_.Close();
+  server_->Shutdown(absl::ToChronoTime(deadline));
+  admission_.WaitUntilIdle();
+}
+
+}  // namespace poise::server

@@ -65,6 +65,13 @@ TEST(ClipConvertTest, EncodedAndStoredFilesSurviveTheRoundTrip) {
   EXPECT_FALSE(stored_back.hints.unit_m.has_value());
 }
 
+TEST(ClipConvertTest, EveryFormatSurvivesTheRoundTrip) {
+  for (int format = 0; format < v1::ClipFormat_ARRAYSIZE; ++format) {
+    const auto wire = static_cast<v1::ClipFormat>(format);
+    EXPECT_EQ(ToProto(*FromProto(wire)), wire);
+  }
+}
+
 TEST(ClipConvertTest, SourcesKeepTheirKindAndTheirRoles) {
   const std::vector<api::ClipSource> sources = {
       {poise::testing::SwingingClip(2), {{"pelvis", "Hips"}}},

@@ -111,8 +111,9 @@ std::string NearestName(std::string_view name, const std::vector<std::string>& c
 
 Status ApplyOverrides(const Overrides& overrides, std::vector<Field> fields) {
   for (const auto& [key, text] : overrides) {
-    const auto found = std::find_if(fields.begin(), fields.end(),
-                                    [&](const Field& field) { return field.name == key; });
+    const auto found =
+        std::find_if(fields.begin(), fields.end(),
+                     [&name = key](const Field& field) { return field.name == name; });
     if (found == fields.end()) {
       std::vector<std::string> names;
       for (const Field& field : fields) names.push_back(field.name);

@@ -7,13 +7,23 @@
 namespace poise::base {
 namespace {
 
+#ifdef __clang__
+// Clang 14, with which the fuzz targets are built, knows features only, not levels.
+bool SupportsV3() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") &&
+         __builtin_cpu_supports("fma");
+}
+bool SupportsV4() {
+  return SupportsV3() && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512cd");
+}
+#else
+bool SupportsV3() { return __builtin_cpu_supports("x86-64-v3"); }
+bool SupportsV4() { return __builtin_cpu_supports("x86-64-v4"); }
+#endif
+
 Isa Detect() {
-  Isa best = Isa::kV2;
-  if (__builtin_cpu_supports("x86-64-v4")) {
-    best = Isa::kV4;
-  } else if (__builtin_cpu_supports("x86-64-v3")) {
-    best = Isa::kV3;
-  }
+  const Isa best = SupportsV4() ? Isa::kV4 : SupportsV3() ? Isa::kV3 : Isa::kV2;
   const char* wish = std::getenv("POISE_ISA");
   const std::string_view name = wish == nullptr ? "" : wish;
   if (name == "v2") return Isa::kV2;

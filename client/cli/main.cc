@@ -13,8 +13,8 @@ namespace {
 constexpr char kDescription[] =
     "Human motion in, more and better human motion out.\n\n"
     "Reads BVH, ASF/AMC, AMASS-style npz, CMU exponential-map text and DeepMimic JSON. info, "
-    "convert and fk work "
-    "on files alone; augment asks a Poise server (POISE_SERVER, default 127.0.0.1:50051).";
+    "convert and fk work on files alone; augment and health ask a Poise server (POISE_SERVER, "
+    "default 127.0.0.1:50051).";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise info kick.bvh\n"
@@ -38,7 +38,7 @@ Status Main(const Console& console, int argc, char** argv) {
   app.set_version_flag("--version", std::string("poise ") + base::Version());
   const std::vector<Command> commands = {
       AddInfoCommand(app, console), AddConvertCommand(app, console), AddFkCommand(app, console),
-      AddAugmentCommand(app, console)};
+      AddAugmentCommand(app, console), AddHealthCommand(app, console)};
   POISE_ASSIGN_OR_RETURN(const bool run, ParseCommandLine(app, argc, argv));
   if (!run) return absl::OkStatus();
   for (const Command& command : commands) {

@@ -21,7 +21,7 @@ TEST(UsageTest, TheVersionIsThatOfTheBuild) {
 
 TEST(UsageTest, EveryCommandExplainsItselfWithExamples) {
   EXPECT_EQ(RunPoise({"--help"}).exit_code, 0);
-  for (const char* command : {"info", "convert", "fk", "augment"}) {
+  for (const char* command : {"info", "convert", "fk", "augment", "health"}) {
     const PoiseRun run = RunPoise({command, "--help"});
     EXPECT_EQ(run.exit_code, 0) << command;
     EXPECT_THAT(run.out, HasSubstr(std::string("  poise ") + command)) << command;
@@ -37,6 +37,12 @@ TEST(UsageTest, WrongUsageExitsWithTwoAndASuggestion) {
   EXPECT_EQ(flag.exit_code, 2);
   EXPECT_EQ(flag.Error().at("reason"), "UNKNOWN_FLAG");
   EXPECT_EQ(flag.Error().at("field"), "--sed");
+}
+
+TEST(UsageTest, HealthWithoutAServerExitsWithFive) {
+  const PoiseRun run = RunPoise({"health", "--json"});
+  EXPECT_EQ(run.exit_code, 5);
+  EXPECT_EQ(run.Error().at("reason"), "NO_SERVER");
 }
 
 TEST(UsageTest, HelpComesFast) {

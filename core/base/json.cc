@@ -10,6 +10,9 @@ StatusOr<Json> ParseJson(std::string_view text, std::string_view what) {
   } catch (const Json::parse_error& error) {
     return InvalidArgument("MALFORMED_JSON", "",
                            fmt::format("{}: not JSON at byte {}", what, error.byte));
+  } catch (const Json::exception&) {
+    return InvalidArgument("MALFORMED_JSON", "",
+                           fmt::format("{}: JSON with a number out of range", what));
   }
 }
 

@@ -15,5 +15,11 @@ TEST(JsonTest, KeysKeepTheOrderOfTheText) {
   EXPECT_EQ(ParseJson(R"({"b": 1, "a": 2})", "x")->dump(), R"({"b":1,"a":2})");
 }
 
+TEST(JsonTest, ANumberOutOfRangeIsAnErrorAndNoException) {
+  const auto json = ParseJson("{\"a\": 1e999}", "settings");
+  EXPECT_EQ(ErrorReason(json.status()), "MALFORMED_JSON");
+  EXPECT_NE(Message(json.status()).find("settings"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace poise::base

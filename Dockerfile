@@ -9,7 +9,6 @@ ARG BASE=debian:bookworm-slim
 FROM ${BASE} AS tools-cli
 WORKDIR /src
 COPY scripts/environment scripts/install scripts/
-COPY proto proto
 RUN scripts/install --cli && rm -rf /var/lib/apt/lists/*
 
 FROM tools-cli AS tools
@@ -18,14 +17,17 @@ RUN scripts/install --build && rm -rf /var/lib/apt/lists/*
 FROM tools-cli AS build-cli
 COPY . .
 RUN --mount=type=cache,target=/root/.cache/ccache \
-    scripts/build release -DPOISE_BUILD_SERVER=OFF -DPOISE_BUILD_TESTS=OFF \
+    scripts/install --cli \
+    && scripts/build release --target poise -DPOISE_BUILD_SERVER=OFF -DPOISE_BUILD_TESTS=OFF \
     && cmake --install build/release --strip --prefix /image/usr/local \
     && deploy/container/collect_libraries /image/usr/local/bin/poise /image
 
 FROM tools AS build
 COPY . .
 RUN --mount=type=cache,target=/root/.cache/ccache \
-    scripts/build release -DPOISE_BUILD_TESTS=OFF -DPOISE_BUILD_BENCH=OFF \
+    scripts/install --build \
+    && scripts/build release --target poised --target poise \
+       -DPOISE_BUILD_TESTS=OFF -DPOISE_BUILD_BENCH=OFF \
     && cmake --install build/release --strip --prefix /image/usr/local
 
 # The command, the libraries it loads and their licences; no shell, no package manager.

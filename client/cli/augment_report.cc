@@ -64,7 +64,9 @@ void AugmentReport::Add(const api::DeliveredVariant& variant) {
     ++ik_variants_;
     if (variant.ik->reachable) {
       ++reachable_;
-      worst_reached_error_m_ = std::max(worst_reached_error_m_, variant.ik->reached_error_m);
+      largest_error_m_ = std::max(largest_error_m_, variant.ik->reached_error_m);
+    } else {
+      unreachable_error_sum_m_ += variant.ik->reached_error_m;
     }
   }
 }
@@ -82,11 +84,13 @@ std::string AugmentReport::Text() const {
     table.AddRow(Row("  worst", tally.worst));
   }
   std::string text = table.Text();
-  if (ik_variants_ > 0) {
-    text += fmt::format("\nIK targets within reach: {} of {}", reachable_, ik_variants_);
-    if (reachable_ > 0) {
-      text += fmt::format("; largest miss among them {:.2f} mm", worst_reached_error_m_ * 1000);
-    }
+  if (reachable_ > 0) {
+    text += fmt::format("\nIK: {} of {} targets within reach, missed by at most {:.2f} mm",
+                        reachable_, ik_variants_, largest_error_m_ * 1000);
+  }
+  if (const int others = ik_variants_ - reachable_; others > 0) {
+    text += fmt::format("\nIK: {} of {} targets out of reach, approached to {:.1f} cm on average",
+                        others, ik_variants_, unreachable_error_sum_m_ / others * 100);
   }
   return text;
 }

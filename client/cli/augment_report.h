@@ -29,7 +29,7 @@ class AugmentReport {
   void Add(const api::DeliveredVariant& variant);
 
   /// Per source three rows: the source, the variants' mean and the worst of them; below it how many
-  /// IK targets lay within reach.
+  /// IK targets lay within reach and how near the joint came to the others.
   std::string Text() const;
 
  private:
@@ -44,7 +44,8 @@ class AugmentReport {
   std::vector<Tally> tallies_;  // (sources)
   int ik_variants_ = 0;
   int reachable_ = 0;
-  double worst_reached_error_m_ = 0;  // where the target was reachable
+  double largest_error_m_ = 0;          // where the target was reachable
+  double unreachable_error_sum_m_ = 0;  // where it was not
 };
 
 }  // namespace poise::cli

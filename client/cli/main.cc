@@ -34,6 +34,9 @@ bool AsksForJson(int argc, char** argv) {
 Status Main(const Console& console, int argc, char** argv) {
   CLI::App app(kDescription, "poise");
   app.formatter(std::make_shared<HelpFormat>());
+  // A flag given twice takes the last value, so that scripts can pass their own and then the
+  // user's.
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.footer(kFooter);
   app.set_version_flag("--version", std::string("poise ") + base::Version());
   const std::vector<Command> commands = {

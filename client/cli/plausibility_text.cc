@@ -9,11 +9,11 @@ using motion::Plausibility;
 
 constexpr Measure kMeasures[] = {
     {"foot skate", "foot skate", &Plausibility::foot_skate_mps, 100, "cm/s", 1},
-    {"penetration", "penetration", &Plausibility::penetration_mean_m, 100, "cm", 2},
-    {"penetration max", "max", &Plausibility::penetration_max_m, 100, "cm", 2},
+    {"penetration", "penetr.", &Plausibility::penetration_mean_m, 100, "cm", 2},
+    {"penetration max", "penetr. max", &Plausibility::penetration_max_m, 100, "cm", 2},
     {"float", "float", &Plausibility::float_mean_m, 100, "cm", 2},
-    {"self-penetration", "self-pen.", &Plausibility::self_penetration_max_m, 100, "cm", 2},
-    {"acceleration", "acceleration", &Plausibility::acceleration_rms_mps2, 1, "m/s²", 2},
+    {"self-penetration", "self-penetr.", &Plausibility::self_penetration_max_m, 100, "cm", 2},
+    {"acceleration", "accel.", &Plausibility::acceleration_rms_mps2, 1, "m/s²", 2},
     {"jerk", "jerk", &Plausibility::jerk_rms_mps3, 1, "m/s³", 0},
 };
 

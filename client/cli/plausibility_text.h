@@ -11,7 +11,7 @@ namespace poise::cli {
 /// One field of Plausibility, as a person reads it.
 struct Measure {
   const char* label;  ///< in a list: "foot skate"
-  const char* head;   ///< above a narrow column: "skate"
+  const char* head;   ///< above a narrow column: "accel."
   double motion::Plausibility::*value;
   double scale;      ///< from the field's unit to `unit`
   const char* unit;  ///< "cm"

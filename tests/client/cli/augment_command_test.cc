@@ -22,15 +22,32 @@ std::string ReadAll(const std::filesystem::path& path) {
   return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
+/// A poised on a port of its own.
+class Server {
+ public:
+  Server()
+      : process_({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--data-dir",
+                  (folder_.path() / "data").string()}) {
+    EXPECT_TRUE(process_.WaitForOutput("\n", absl::Seconds(60))) << process_.ErrorOutput();
+    const std::string ready = process_.Output();
+    address_ = base::Json::parse(ready.substr(0, ready.find('\n'))).at("address");
+  }
+  const std::string& address() const { return address_; }
+  void Kill() { process_.Signal(SIGKILL); }
+
+ private:
+  TemporaryFolder folder_;
+  Process process_;
+  std::string address_;
+};
+
 class AugmentCommandTest : public ::testing::Test {
  protected:
-  AugmentCommandTest()
-      : server_({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--data-dir", Path("data")}) {
+  static void SetUpTestSuite() { server_ = new Server; }
+  static void TearDownTestSuite() { delete server_; }
+
+  AugmentCommandTest() : environment_{{"POISE_SERVER", server_->address()}} {
     EXPECT_TRUE(motion::WriteBvhFile(Path("swing.bvh"), SwingingClip(121)).ok());
-    EXPECT_TRUE(server_.WaitForOutput("\n", absl::Seconds(30))) << server_.ErrorOutput();
-    const std::string ready = server_.Output();
-    environment_["POISE_SERVER"] =
-        base::Json::parse(ready.substr(0, ready.find('\n'))).at("address").get<std::string>();
   }
 
   std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -43,10 +60,12 @@ class AugmentCommandTest : public ::testing::Test {
     return RunPoise(Arguments(std::move(more)), environment_);
   }
 
+  static Server* server_;  // all tests but one leave it alone
   TemporaryFolder folder_;
-  Process server_;
   std::map<std::string, std::string> environment_;
 };
+
+Server* AugmentCommandTest::server_ = nullptr;
 
 TEST_F(AugmentCommandTest, EveryVariantIsAFileAndAJsonLine) {
   const PoiseRun run =
@@ -131,11 +150,13 @@ TEST_F(AugmentCommandTest, ATimeLimitExitsWithSix) {
 }
 
 TEST_F(AugmentCommandTest, AServerThatDiesMidwayIsReported) {
+  Server mortal;
+  environment_["POISE_SERVER"] = mortal.address();
   std::vector<std::string> arguments = Arguments({"-n", "1000000", "--json"});
   arguments.insert(arguments.begin(), ProgramPath("poise"));
   Process process(arguments, environment_);
   ASSERT_TRUE(process.WaitForOutput("\n", absl::Seconds(30)));
-  server_.Signal(SIGKILL);
+  mortal.Kill();
   EXPECT_EQ(process.Wait(absl::Seconds(20)), 5);
   EXPECT_THAT(process.Output(), HasSubstr("CONNECTION_LOST"));
 }

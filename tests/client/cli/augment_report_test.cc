@@ -50,7 +50,8 @@ TEST(AugmentReportTest, TheTableHasSourceMeanAndWorst) {
   EXPECT_THAT(text, ::testing::ContainsRegex("kick, source +10.0 "));
   EXPECT_THAT(text, ::testing::ContainsRegex("2 variants, mean +30.0 "));
   EXPECT_THAT(text, ::testing::ContainsRegex("worst +40.0 "));
-  EXPECT_THAT(text, HasSubstr("within reach: 1 of 2; largest miss among them 0.40 mm"));
+  EXPECT_THAT(text, HasSubstr("1 of 2 targets within reach, missed by at most 0.40 mm"));
+  EXPECT_THAT(text, HasSubstr("1 of 2 targets out of reach, approached to 20.0 cm on average"));
 }
 
 }  // namespace

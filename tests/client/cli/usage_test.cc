@@ -45,6 +45,11 @@ TEST(UsageTest, HealthWithoutAServerExitsWithFive) {
   EXPECT_EQ(run.Error().at("reason"), "NO_SERVER");
 }
 
+TEST(UsageTest, AFlagGivenTwiceTakesTheLastValue) {
+  const PoiseRun run = RunPoise({"fk", "a.bvh", "--frames=x", "--frames=y", "--json"});
+  EXPECT_EQ(run.exit_code, 3) << "the flags are fine, the file is not there";
+}
+
 TEST(UsageTest, HelpComesFast) {
   double best = 1;
   for (int attempt = 0; attempt < 10; ++attempt) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "absl/time/clock.h"
 #include "proto/convert/status_convert.h"
 #include "server/handlers/guard.h"
 
@@ -77,12 +78,22 @@ void MessageStream::OnCancel() {
 
 void MessageStream::Expire() {
   call_->Cancel();
+  std::lock_guard lock(mutex_);
+  if (finished_) return;
+  Stop(base::MakeError(absl::StatusCode::kDeadlineExceeded, "DEADLINE_EXCEEDED", "",
+                       "the deadline passed before the stream was complete"));
+  if (!writing_) return Advance();
+  // A client that reads takes the message under way and then learns why the stream ends.
+  cut_alarm_.Set(absl::ToChronoTime(absl::Now() + kLastWrite),
+                 [weak = weak_from_this()](bool expired) {
+                   if (auto self = weak.lock(); self && expired) self->Cut();
+                 });
+}
+
+void MessageStream::Cut() {
   {
     std::lock_guard lock(mutex_);
-    if (finished_) return;
-    Stop(base::MakeError(absl::StatusCode::kDeadlineExceeded, "DEADLINE_EXCEEDED", "",
-                         "the deadline passed before the stream was complete"));
-    if (!writing_) return Advance();
+    if (finished_ || !writing_) return;
     ++tasks_;  // keeps the context until TryCancel is back
   }
   // The client does not read: only a cancelled stream gives the pending write back.
@@ -94,6 +105,7 @@ void MessageStream::Expire() {
 
 void MessageStream::OnDone() {
   deadline_alarm_.Cancel();
+  cut_alarm_.Cancel();
   self_.reset();
 }
 

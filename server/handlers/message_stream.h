@@ -46,6 +46,8 @@ class MessageStream : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
 
  private:
   static constexpr size_t kWindowBytes = 8 << 20;
+  // How long past the deadline a client may take to read the message under way.
+  static constexpr absl::Duration kLastWrite = absl::Milliseconds(500);
 
   void OnWriteDone(bool ok) final;
   void OnCancel() final;
@@ -54,6 +56,7 @@ class MessageStream : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
   void RunPrepare();
   void RunMake(int64_t ordinal);
   void Expire();
+  void Cut();
 
   // With mutex_ held: begins what can begin now (messages, a write, Finish).
   void Advance();
@@ -66,6 +69,7 @@ class MessageStream : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
   base::ThreadPool& pool_;
   const int window_;
   grpc::Alarm deadline_alarm_;
+  grpc::Alarm cut_alarm_;  // set when the deadline meets a write under way
   std::shared_ptr<MessageStream> self_;
 
   std::mutex mutex_;

@@ -54,8 +54,8 @@ struct ClipFile {
 /// without its ending. `skeleton_data` is the ASF text that an AMC needs. Errors: kInvalidArgument
 /// with the line (text) or entry (npz) and what was expected: UNKNOWN_FORMAT, MALFORMED_BVH,
 /// MALFORMED_ASF, MALFORMED_AMC, MALFORMED_NPZ, MALFORMED_CMU_TEXT, MALFORMED_DEEPMIMIC, TOO_LARGE,
-/// MOVING_JOINT_OFFSET (a BVH joint below the root chain that travels), MISSING_SKELETON, and those
-/// of Skeleton and Clip.
+/// MOVING_JOINT_OFFSET (a BVH joint below the root chain that travels), MISSING_SKELETON, BAD_HINT,
+/// and those of Skeleton and Clip.
 StatusOr<ClipFile> DecodeClip(std::string_view name, std::string_view data,
                               ClipFormat format = ClipFormat::kUnknown, const ClipHints& hints = {},
                               std::string_view skeleton_data = "");
@@ -67,7 +67,8 @@ StatusOr<ClipFile> ReadClipFile(const std::filesystem::path& path, const ClipHin
                                 const std::filesystem::path& skeleton = {});
 
 /// BVH text of a clip in the convention of its source, or in the default one (metres to
-/// centimetres, Y up, ZXY).
+/// centimetres, Y up, ZXY). Joints stand depth first, as the format has them: a skeleton in another
+/// order comes back in this one.
 std::string EncodeBvh(const Clip& clip, const SourceConvention& convention = {.unit_m = 0.01});
 
 /// Errors: kFailedPrecondition CANNOT_WRITE.

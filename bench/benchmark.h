@@ -26,6 +26,8 @@ struct Benchmark {
 /// All of them, one line each.
 const std::vector<Benchmark>& Benchmarks();
 
+std::vector<Row> RunBlasBenchmark();
+std::vector<Row> RunGrpcBenchmark();
 std::vector<Row> RunIkBenchmark();
 
 /// How often `work` runs in one second of this thread's own computing time, which other processes

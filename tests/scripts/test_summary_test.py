@@ -11,6 +11,7 @@ PASSED = '<testcase name="Walks" status="run"/>'
 FAILED = '<testcase name="Falls" status="fail"><failure message=""/></testcase>'
 NOT_BUILT = ('<testcase name="Absent" status="notrun">'
              '<skipped message="Unable to find executable"/></testcase>')
+DISABLED = '<testcase name="Serves" status="disabled"/>'
 WITHOUT_DATA = ('<testcase name="Reads" status="notrun">'
                 '<skipped message="SKIP_REGULAR_EXPRESSION_MATCHED"/>'
                 "<system-out>needs real data: hdm05 does not exist</system-out></testcase>")
@@ -36,6 +37,9 @@ class TestSummary(unittest.TestCase):
     def test_a_program_that_is_missing_failed(self):
         code, lines = summarise([PASSED, NOT_BUILT])
         self.assertEqual((code, lines[-1]), (1, "1 passed, 1 failed, 0 skipped"))
+
+    def test_a_disabled_one_counts_as_nothing(self):
+        self.assertEqual(summarise([PASSED, DISABLED]), (0, ["1 passed, 0 failed, 0 skipped"]))
 
     def test_skipped_for_want_of_data_passes_unless_data_is_required(self):
         self.assertEqual(summarise([WITHOUT_DATA])[0], 0)

@@ -9,8 +9,9 @@ namespace poise::cli {
 namespace {
 
 constexpr char kDescription[] =
-    "Ask a Poise server whether it takes calls: for a container's health check, or a script that "
-    "waits for it. Exit code 0: it does; 5: it is not there, or about to stop.";
+    "Ask a Poise server whether it takes calls.\n\n"
+    "For a container's health check, or a script that waits for it. Exit code 0: it does; 5: it is "
+    "not there, or about to stop.";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise health\n"
@@ -39,7 +40,9 @@ Command AddHealthCommand(CLI::App& app, const Console& console) {
   options->timeout = options->connect_timeout;
   CLI::App* command = app.add_subcommand("health", kDescription);
   command->footer(kFooter);
-  command->add_option("--server", options->server, "HOST:PORT, also from POISE_SERVER")
+  command
+      ->add_option("--server", options->server, "HOST:PORT of the server; also from POISE_SERVER")
+      ->type_name("ADDRESS")
       ->capture_default_str();
   AddJsonFlag(*command);
   return {command, [options, &console] { return RunHealth(*options, console); }};

@@ -7,6 +7,7 @@
 #include "bench/benchmark.h"
 #include "core/base/isa.h"
 #include "core/base/json.h"
+#include "core/base/memory_policy.h"
 
 namespace poise::bench {
 namespace {
@@ -57,4 +58,7 @@ int Main(int argc, char** argv) {
 }  // namespace
 }  // namespace poise::bench
 
-int main(int argc, char** argv) { return poise::bench::Main(argc, argv); }
+int main(int argc, char** argv) {
+  poise::base::KeepFreedMemory();  // as poised does
+  return poise::bench::Main(argc, argv);
+}

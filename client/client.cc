@@ -1,7 +1,6 @@
 #include "client/client.h"
 
 #include <fmt/format.h>
-#include <openssl/sha.h>
 
 #include <algorithm>
 #include <numeric>
@@ -10,6 +9,7 @@
 #include "client/connection.h"
 #include "client/transport_error.h"
 #include "client/variant_call.h"
+#include "core/base/sha256.h"
 #include "proto/convert/augment_convert.h"
 
 namespace poise::client {
@@ -17,14 +17,6 @@ namespace {
 
 constexpr size_t kChunkBytes = size_t{1} << 20;
 constexpr char kNamePrefix[] = "artifacts/";
-
-std::string Sha256Hex(std::string_view data) {
-  unsigned char digest[SHA256_DIGEST_LENGTH];
-  SHA256(reinterpret_cast<const unsigned char*>(data.data()), data.size(), digest);
-  std::string hex;
-  for (const unsigned char byte : digest) hex += fmt::format("{:02x}", byte);
-  return hex;
-}
 
 // About how many bytes a source takes in a request.
 size_t WireBytes(const api::ClipSource& source) {
@@ -116,7 +108,7 @@ Status Client::UploadLargeSources(api::AugmentSpec& spec) {
 }
 
 StatusOr<StoredArtifact> Client::Upload(std::string_view data) {
-  const std::string digest = Sha256Hex(data);
+  const std::string digest = base::Sha256Hex(data);
   const auto context = connection_->NewCall();
   v1::Artifact artifact;
   const auto writer = connection_->artifact().Upload(context.get(), &artifact);
@@ -150,7 +142,7 @@ StatusOr<std::string> Client::Download(const std::string& name, int64_t offset) 
   v1::DownloadResponse response;
   while (reader->Read(&response)) data += response.chunk();
   POISE_RETURN_IF_ERROR(ExplainCall(reader->Finish(), connection_->options()));
-  if (offset == 0 && kNamePrefix + Sha256Hex(data) != name) {
+  if (offset == 0 && kNamePrefix + base::Sha256Hex(data) != name) {
     return base::Internal("CORRUPTED",
                           fmt::format("what came for '{}' does not hash to its name", name));
   }

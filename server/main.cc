@@ -14,6 +14,7 @@
 
 #include "absl/time/clock.h"
 #include "core/base/json.h"
+#include "core/base/memory_policy.h"
 #include "core/base/version.h"
 #include "core/engine/engine.h"
 #include "core/learning/nn/blas_probe.h"
@@ -180,6 +181,7 @@ int ExitCode(absl::StatusCode code) {
 }
 
 int Main(int argc, char** argv) {
+  base::KeepFreedMemory();
   CatchShutdownSignals();
   Options options;
   CLI::App app{"poised: the Poise server. Motion clips in, variants out, over gRPC."};

@@ -111,7 +111,7 @@ StatusOr<std::string> ArtifactStore::ReadAll(std::string_view name, int64_t max_
         fmt::format("the artifact has {} bytes, at most {} expected", file.size(), max_bytes));
   }
   POISE_ASSIGN_OR_RETURN(std::string bytes, file.Read(0, file.size()));
-  Sha256 digest;
+  base::Sha256 digest;
   digest.Update(bytes);
   if (ArtifactName(digest.HexDigest()) != name) {
     return base::MakeError(absl::StatusCode::kDataLoss, "CORRUPT_ARTIFACT", "name",

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/artifacts/sha256.h"
+#include "core/base/sha256.h"
 #include "core/base/status.h"
 
 namespace poise::artifacts {
@@ -46,7 +46,7 @@ class ArtifactWriter {
   int file_;
   int64_t max_bytes_;
   int64_t size_ = 0;
-  Sha256 digest_;
+  base::Sha256 digest_;
 };
 
 }  // namespace poise::artifacts

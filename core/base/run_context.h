@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -30,6 +31,7 @@ struct Progress {
   int64_t step = 0;
   int64_t total = 0;
   std::string message;
+  std::map<std::string, double> metrics = {};  ///< "reward", "samples", "eta_s", ...
 };
 
 /// What goes down with every piece of work: seed, cancellation, deadline, progress. Work of more

@@ -1,7 +1,5 @@
 #include "core/engine/augment_run.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace poise::engine {
@@ -21,12 +19,11 @@ StatusOr<Result> AsFile(const api::Variant& variant, const motion::SourceConvent
     POISE_ASSIGN_OR_RETURN(artifacts::ArtifactInfo stored, artifacts.Put(bvh));
     return Result(std::move(stored.name));
   }
-  return Result(
-      api::EncodedClip{.name = fmt::format("{}_{:04}.bvh", variant.clip.name(), variant.index),
-                       .data = std::move(bvh),
-                       .format = motion::ClipFormat::kBvh,
-                       .skeleton_data = "",
-                       .hints = {}});
+  return Result(api::EncodedClip{.name = variant.clip.name() + ".bvh",
+                                 .data = std::move(bvh),
+                                 .format = motion::ClipFormat::kBvh,
+                                 .skeleton_data = "",
+                                 .hints = {}});
 }
 
 }  // namespace

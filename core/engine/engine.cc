@@ -10,14 +10,11 @@
 namespace poise::engine {
 namespace {
 
-// A BVH file is written as it was read; what came as arrays or in another format, as usual: in
-// centimetres.
+// A BVH file is written as it was read; what came as arrays or in another format, as usual.
 motion::SourceConvention FileConvention(CatalogClip& clip) {
   const bool was_bvh = clip.convention && clip.convention->format == motion::ClipFormat::kBvh;
   if (was_bvh) return *std::move(clip.convention);
-  motion::SourceConvention usual;
-  usual.unit_m = 0.01;
-  return usual;
+  return motion::UsualBvhConvention();
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 namespace poise::motion {
 namespace {
 
-constexpr double kMaxFrameRate = 10000;
 constexpr double kUnitLengthTolerance = 1e-2;
 
 }  // namespace

@@ -20,10 +20,11 @@ namespace poise::motion {
 class Clip {
  public:
   static constexpr int64_t kMaxFrames = 10'000'000;
+  static constexpr double kMaxFrameRate = 10'000;  ///< [Hz]
 
   /// Normalises the quaternions. Errors: kInvalidArgument: NO_FRAMES, BAD_FRAME_RATE (outside
-  /// (0, 10000]), WRONG_SHAPE (rotations are not frames x joints), NOT_FINITE and NOT_A_ROTATION
-  /// (length off by more than 1e-2; frame and joint in the message).
+  /// (0, kMaxFrameRate]), WRONG_SHAPE (rotations are not frames x joints), NOT_FINITE and
+  /// NOT_A_ROTATION (length off by more than 1e-2; frame and joint in the message).
   static StatusOr<Clip> Create(std::string name, SkeletonPtr skeleton, double frame_rate,
                                std::vector<Vec3> root_positions, std::vector<Quat> rotations);
 

@@ -13,8 +13,6 @@ namespace {
 using motion::Quat;
 using motion::Vec3;
 
-constexpr double kMaxFrameRate = 10000;
-
 Status WrongShape(const v1::Clip& clip, const char* field, int64_t got,
                   const std::string& expected) {
   return base::InvalidArgument(
@@ -191,10 +189,10 @@ StatusOr<motion::ClipHints> FromProto(const v1::ClipHints& hints) {
   }
   if (hints.has_frame_rate()) {
     value.frame_rate = hints.frame_rate();
-    if (!(*value.frame_rate > 0 && *value.frame_rate <= kMaxFrameRate)) {
-      return base::InvalidArgument(
-          "BAD_HINT", "frame_rate",
-          fmt::format("frame_rate is {}, expected (0, {}] Hz", *value.frame_rate, kMaxFrameRate));
+    if (!(*value.frame_rate > 0 && *value.frame_rate <= motion::Clip::kMaxFrameRate)) {
+      return base::InvalidArgument("BAD_HINT", "frame_rate",
+                                   fmt::format("frame_rate is {}, expected (0, {}] Hz",
+                                               *value.frame_rate, motion::Clip::kMaxFrameRate));
     }
   }
   switch (hints.up()) {

@@ -129,6 +129,12 @@ const char* ClipFormatName(ClipFormat format) {
   return "unknown";
 }
 
+SourceConvention UsualBvhConvention() {
+  SourceConvention usual;
+  usual.unit_m = 0.01;
+  return usual;
+}
+
 StatusOr<ClipFormat> ParseClipFormat(std::string_view name) {
   for (const FormatName& entry : kFormatNames) {
     if (name == entry.name) return entry.format;

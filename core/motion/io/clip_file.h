@@ -44,6 +44,9 @@ struct SourceConvention {
   std::vector<std::string> notes = {};
 };
 
+/// How most BVH files are written: in centimetres, Y up, channels Z X Y.
+SourceConvention UsualBvhConvention();
+
 /// A clip as read, in Poise's conventions (metres, Y up), with where it came from.
 struct ClipFile {
   Clip clip;
@@ -66,14 +69,13 @@ StatusOr<ClipFile> DecodeClip(std::string_view name, std::string_view data,
 StatusOr<ClipFile> ReadClipFile(const std::filesystem::path& path, const ClipHints& hints = {},
                                 const std::filesystem::path& skeleton = {});
 
-/// BVH text of a clip in the convention of its source, or in the default one (metres to
-/// centimetres, Y up, ZXY). Joints stand depth first, as the format has them: a skeleton in another
-/// order comes back in this one.
-std::string EncodeBvh(const Clip& clip, const SourceConvention& convention = {.unit_m = 0.01});
+/// BVH text of a clip in the convention of its source, or in the usual one. Joints stand depth
+/// first, as the format has them: a skeleton in another order comes back in this one.
+std::string EncodeBvh(const Clip& clip, const SourceConvention& convention = UsualBvhConvention());
 
 /// Errors: kFailedPrecondition CANNOT_WRITE.
 Status WriteBvhFile(const std::filesystem::path& path, const Clip& clip,
-                    const SourceConvention& convention = {.unit_m = 0.01});
+                    const SourceConvention& convention = UsualBvhConvention());
 
 }  // namespace poise::motion
 

@@ -1,5 +1,5 @@
-#ifndef POISE_CORE_ARTIFACTS_SHA256_H_
-#define POISE_CORE_ARTIFACTS_SHA256_H_
+#ifndef POISE_CORE_BASE_SHA256_H_
+#define POISE_CORE_BASE_SHA256_H_
 
 #include <memory>
 #include <string>
@@ -7,7 +7,7 @@
 
 struct evp_md_ctx_st;
 
-namespace poise::artifacts {
+namespace poise::base {
 
 /// SHA-256 of bytes that come piece by piece.
 class Sha256 {
@@ -26,6 +26,9 @@ class Sha256 {
   std::unique_ptr<evp_md_ctx_st, Free> context_;
 };
 
-}  // namespace poise::artifacts
+/// Of bytes that are all there.
+std::string Sha256Hex(std::string_view bytes);
 
-#endif  // POISE_CORE_ARTIFACTS_SHA256_H_
+}  // namespace poise::base
+
+#endif  // POISE_CORE_BASE_SHA256_H_

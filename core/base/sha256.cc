@@ -1,10 +1,10 @@
-#include "core/artifacts/sha256.h"
+#include "core/base/sha256.h"
 
 #include <openssl/evp.h>
 
 #include <new>
 
-namespace poise::artifacts {
+namespace poise::base {
 
 void Sha256::Free::operator()(evp_md_ctx_st* context) const { EVP_MD_CTX_free(context); }
 
@@ -32,4 +32,10 @@ std::string Sha256::HexDigest() {
   return hex;
 }
 
-}  // namespace poise::artifacts
+std::string Sha256Hex(std::string_view bytes) {
+  Sha256 digest;
+  digest.Update(bytes);
+  return digest.HexDigest();
+}
+
+}  // namespace poise::base

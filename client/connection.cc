@@ -29,6 +29,9 @@ Connection::Connection(ClientOptions options)
       channel_(MakeChannel(options_)),
       augmentation_(v1::AugmentationService::NewStub(channel_)),
       artifact_(v1::ArtifactService::NewStub(channel_)),
+      job_(v1::JobService::NewStub(channel_)),
+      worker_(v1::WorkerService::NewStub(channel_)),
+      admin_(v1::AdminService::NewStub(channel_)),
       health_(grpc::health::v1::Health::NewStub(channel_)) {}
 
 std::unique_ptr<grpc::ClientContext> Connection::NewCall(absl::Duration timeout) const {

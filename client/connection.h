@@ -6,12 +6,15 @@
 #include "client/client_options.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "grpcpp/grpcpp.h"
+#include "poise/v1/admin_service.grpc.pb.h"
 #include "poise/v1/artifact_service.grpc.pb.h"
 #include "poise/v1/augmentation_service.grpc.pb.h"
+#include "poise/v1/job_service.grpc.pb.h"
+#include "poise/v1/worker_service.grpc.pb.h"
 
 namespace poise::client {
 
-/// The channel to one server with a stub per service.
+/// The channel to one server, with one client object per service.
 /// Threads: all members may be called from any thread.
 class Connection {
  public:
@@ -24,6 +27,9 @@ class Connection {
   const ClientOptions& options() const { return options_; }
   v1::AugmentationService::Stub& augmentation() const { return *augmentation_; }
   v1::ArtifactService::Stub& artifact() const { return *artifact_; }
+  v1::JobService::Stub& job() const { return *job_; }
+  v1::WorkerService::Stub& worker() const { return *worker_; }
+  v1::AdminService::Stub& admin() const { return *admin_; }
   grpc::health::v1::Health::Stub& health() const { return *health_; }
 
  private:
@@ -31,6 +37,9 @@ class Connection {
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::AugmentationService::Stub> augmentation_;
   std::unique_ptr<v1::ArtifactService::Stub> artifact_;
+  std::unique_ptr<v1::JobService::Stub> job_;
+  std::unique_ptr<v1::WorkerService::Stub> worker_;
+  std::unique_ptr<v1::AdminService::Stub> admin_;
   std::unique_ptr<grpc::health::v1::Health::Stub> health_;
 };
 

@@ -128,7 +128,8 @@ struct Job {
 
 /// One entry of a job's event stream: exactly one of the three.
 struct JobEvent {
-  int64_t seq = 0;
+  int64_t seq = 0;     ///< grows; thinned progress leaves gaps
+  int64_t change = 0;  ///< counts states and checkpoints without gaps; of progress: the last one's
   absl::Time time;
   int attempt = 0;
   std::optional<JobState> state;

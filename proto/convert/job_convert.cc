@@ -250,6 +250,7 @@ api::JobArtifact FromProto(const v1::JobArtifact& message) {
 v1::JobEvent ToProto(const api::JobEvent& event) {
   v1::JobEvent message;
   message.set_seq(event.seq);
+  message.set_change(event.change);
   *message.mutable_time() = ToProto(event.time);
   message.set_attempt(event.attempt);
   if (event.state) {
@@ -266,6 +267,7 @@ v1::JobEvent ToProto(const api::JobEvent& event) {
 StatusOr<api::JobEvent> FromProto(const v1::JobEvent& message) {
   api::JobEvent event;
   event.seq = message.seq();
+  event.change = message.change();
   event.time = FromProto(message.time());
   event.attempt = message.attempt();
   if (message.has_state()) {

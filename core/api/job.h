@@ -83,10 +83,10 @@ struct JobAttempt {
   int attempt = 0;
   std::string worker;
   AttemptOutcome outcome = AttemptOutcome::kRunning;
-  std::optional<JobError> error;
-  absl::Time start;
+  std::optional<JobError> error = {};
+  absl::Time start = {};
   absl::Time end = absl::InfiniteFuture();  ///< InfiniteFuture while it runs
-  JobUsage usage;
+  JobUsage usage = {};
   int64_t from_step = 0;  ///< step of the checkpoint that it began from
   int64_t last_step = 0;
 };
@@ -100,17 +100,17 @@ struct Job {
   std::string queue;
   int priority = 0;
   uint64_t seed = 0;
-  std::map<std::string, std::string> labels;
-  JobLimits limits;
+  std::map<std::string, std::string> labels = {};
+  JobLimits limits = {};
 
   int attempt = 0;
   int errors = 0;
   int losses = 0;
-  base::Progress progress;
-  std::optional<JobError> error;
-  std::optional<JobCheckpoint> checkpoint;
-  std::vector<JobArtifact> artifacts;
-  std::vector<JobAttempt> attempts;  ///< oldest first; empty in lists
+  base::Progress progress = {};
+  std::optional<JobError> error = {};
+  std::optional<JobCheckpoint> checkpoint = {};
+  std::vector<JobArtifact> artifacts = {};
+  std::vector<JobAttempt> attempts = {};  ///< oldest first; empty in lists
   int64_t event_seq = 0;
 
   // A time that has not come, or is not known, is InfiniteFuture.
@@ -132,10 +132,10 @@ struct JobEvent {
   int64_t change = 0;  ///< counts states and checkpoints without gaps; of progress: the last one's
   absl::Time time;
   int attempt = 0;
-  std::optional<JobState> state;
-  std::optional<base::Progress> progress;
-  std::optional<JobCheckpoint> checkpoint;
-  std::optional<JobError> error;  ///< with a state: why
+  std::optional<JobState> state = {};
+  std::optional<base::Progress> progress = {};
+  std::optional<JobCheckpoint> checkpoint = {};
+  std::optional<JobError> error = {};  ///< with a state: why
 };
 
 /// What a client asks for.

@@ -76,7 +76,7 @@ struct Lease {
   api::JobSpec spec;
   uint64_t seed = 0;
   api::JobLimits limits;
-  std::optional<api::JobCheckpoint> checkpoint;
+  std::optional<api::JobCheckpoint> checkpoint = {};
   std::string trace_id;
   absl::Duration deadline_in = absl::InfiniteDuration();
 };
@@ -92,9 +92,9 @@ struct HeartbeatReply {
 struct Outcome {
   /// kSucceeded, kError, kStalled, kLost (its process vanished) or kCancelled.
   api::AttemptOutcome outcome = api::AttemptOutcome::kSucceeded;
-  std::optional<api::JobError> error;       ///< with kError, kStalled, kLost
-  std::vector<api::JobArtifact> artifacts;  ///< with kSucceeded
-  api::JobUsage usage;
+  std::optional<api::JobError> error = {};       ///< with kError, kStalled, kLost
+  std::vector<api::JobArtifact> artifacts = {};  ///< with kSucceeded
+  api::JobUsage usage = {};
 };
 
 struct WorkerInfo {
@@ -173,7 +173,9 @@ class JobStore {
   virtual Status Delete(const std::string& tenant, const std::string& id) = 0;
 
   /// At most `limit` events after `after_seq`, in order. Of several progress events with no other
-  /// event between them only the last is kept.
+  /// event between them only the last is given. JobEvent::change has no gaps, so a reader sees that
+  /// no state and no checkpoint is missing; once event_retention is over, only the terminal event
+  /// is left.
   virtual StatusOr<std::vector<api::JobEvent>> ReadEvents(const std::string& id, int64_t after_seq,
                                                           int limit) = 0;
 

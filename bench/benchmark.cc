@@ -36,6 +36,7 @@ const std::vector<Benchmark>& Benchmarks() {
       {"blas", RunBlasBenchmark},
       {"grpc", RunGrpcBenchmark},
       {"ik", RunIkBenchmark},
+      {"jobs", RunJobsBenchmark},
   };
   return benchmarks;
 }

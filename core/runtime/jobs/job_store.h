@@ -28,20 +28,20 @@ struct JobPolicy {
   int max_progress_events = 1000;  ///< [> 1] per job; beyond it every second one is dropped
   int64_t max_queued_per_tenant = 10'000;
   int64_t max_running_per_tenant = 1'000'000;
-  int64_t max_unfinished = 1'000'000;            ///< queued and running jobs of the whole store
-  std::map<std::string, double> tenant_weights;  ///< share of running jobs; default 1
-  absl::Duration age_step = absl::Minutes(10);   ///< waiting this long lifts a job one priority
+  int64_t max_unfinished = 1'000'000;  ///< queued and running jobs of the whole store
+  std::map<std::string, double> tenant_weights = {};  ///< share of running jobs; default 1
+  absl::Duration age_step = absl::Minutes(10);  ///< waiting this long lifts a job one priority
   absl::Duration quota_retry_delay = absl::Seconds(5);  ///< told with QUOTA_EXCEEDED
 };
 
 /// A job on its way into the store: checked, with its digest.
 struct NewJob {
   std::string tenant = "default";
-  api::CreateJob request;
-  std::string content_digest;  ///< of everything in the request but its id
-  std::string trace_id;
-  std::string retry_of;                          ///< id, with RetryJob
-  std::optional<api::JobCheckpoint> checkpoint;  ///< taken over from that job
+  api::CreateJob request = {};
+  std::string content_digest = {};  ///< of everything in the request but its id
+  std::string trace_id = {};
+  std::string retry_of = {};                          ///< id, with RetryJob
+  std::optional<api::JobCheckpoint> checkpoint = {};  ///< taken over from that job
 };
 
 struct SubmitOutcome {
@@ -99,12 +99,12 @@ struct Outcome {
 
 struct WorkerInfo {
   std::string id;
-  std::string host;
-  std::string engine;  ///< local, kubernetes, slurm, manual
-  std::string engine_ref;
-  std::string version;
+  std::string host = {};
+  std::string engine = {};  ///< local, kubernetes, slurm, manual
+  std::string engine_ref = {};
+  std::string version = {};
   int slots = 1;
-  absl::Time last_seen;
+  absl::Time last_seen = {};
 };
 
 /// A change of state, for the log, the counters and those who watch.

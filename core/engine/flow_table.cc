@@ -1,0 +1,30 @@
+#include "core/engine/flow_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/runtime/jobs/selftest_config.h"
+#include "core/runtime/jobs/selftest_runner.h"
+
+namespace poise::engine {
+
+const std::vector<Flow>& FlowTable() {
+  static const std::vector<Flow> flows = {
+      {"selftest", "steps that do nothing, for tests of the job system", jobs::ValidateSelftest,
+       jobs::MakeSelftestRunner},
+  };
+  return flows;
+}
+
+StatusOr<const Flow*> FindFlow(std::string_view kind) {
+  std::vector<std::string_view> kinds;
+  for (const Flow& flow : FlowTable()) {
+    if (flow.kind == kind) return &flow;
+    kinds.push_back(flow.kind);
+  }
+  return base::InvalidArgument(
+      "UNKNOWN_JOB_KIND", "spec.kind",
+      fmt::format("unknown kind of job '{}', expected one of: {}", kind, fmt::join(kinds, ", ")));
+}
+
+}  // namespace poise::engine

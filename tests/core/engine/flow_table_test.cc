@@ -1,0 +1,42 @@
+#include "core/engine/flow_table.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace poise::engine {
+namespace {
+
+TEST(FlowTableTest, EveryKindIsThereOnceAndMakesItsRunner) {
+  std::set<std::string_view> kinds;
+  for (const Flow& flow : FlowTable()) {
+    EXPECT_TRUE(kinds.insert(flow.kind).second) << flow.kind;
+    EXPECT_FALSE(flow.summary.empty()) << flow.kind;
+    EXPECT_NE(flow.make_runner(), nullptr) << flow.kind;
+    EXPECT_TRUE(flow.validate(base::Json::object()).ok()) << flow.kind;
+  }
+  EXPECT_EQ((*FindFlow("selftest"))->kind, "selftest");
+}
+
+TEST(FlowTableTest, UnknownKindIsRefusedWithTheKnownOnes) {
+  const Status status = FindFlow("selftset").status();
+  EXPECT_EQ(base::ErrorReason(status), "UNKNOWN_JOB_KIND");
+  EXPECT_EQ(base::ErrorField(status), "spec.kind");
+  EXPECT_NE(base::Message(status).find("selftest"), std::string::npos);
+}
+
+TEST(FlowTableTest, ParametersAreCheckedWithTheFieldToBlame) {
+  const Flow& selftest = **FindFlow("selftest");
+  const Status unknown = selftest.validate({{"stps", 3}});
+  EXPECT_EQ(base::ErrorReason(unknown), "UNKNOWN_CONFIG_KEY");
+  EXPECT_EQ(base::ErrorField(unknown), "spec.parameters.stps");
+  EXPECT_EQ(base::ErrorField(selftest.validate({{"steps", -1}})), "spec.parameters.steps");
+  EXPECT_EQ(base::ErrorField(selftest.validate({{"steps", 1.5}})), "spec.parameters.steps");
+  EXPECT_EQ(base::ErrorField(selftest.validate({{"failure", "sulk"}})), "spec.parameters.failure");
+  EXPECT_FALSE(selftest.validate({{"steps", {{"a", 1}}}}).ok());
+  EXPECT_FALSE(selftest.validate(base::Json::array()).ok());
+  EXPECT_TRUE(selftest.validate({{"steps", 3}, {"busy", true}, {"failure", "diverge"}}).ok());
+}
+
+}  // namespace
+}  // namespace poise::engine

@@ -18,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "absl/time/clock.h"
 #include "core/base/fail_point.h"
@@ -82,6 +83,7 @@ class Reporter {
     {
       std::lock_guard lock(mutex_);
       pending_ = progress;
+      if (std::exchange(first_, false)) SendProgress();
     }
     changed_.notify_all();
   }
@@ -121,6 +123,7 @@ class Reporter {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<base::Progress> pending_;
+  bool first_ = true;
   bool done_ = false;
   std::thread thread_;
 };

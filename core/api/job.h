@@ -160,10 +160,10 @@ struct CreateJob {
 
 /// Which jobs a list holds; empty fields match all.
 struct JobFilter {
-  std::optional<JobState> state;
-  std::string kind;
-  std::string queue;
-  std::map<std::string, std::string> labels;
+  std::optional<JobState> state = {};
+  std::string kind = {};
+  std::string queue = {};
+  std::map<std::string, std::string> labels = {};
 
   /// "state=FAILED kind=selftest queue=default label.run=7". Errors: kInvalidArgument BAD_FILTER.
   static StatusOr<JobFilter> Parse(std::string_view text);

@@ -51,9 +51,9 @@ struct SubmitOutcome {
 
 struct ListQuery {
   std::string tenant = "default";
-  api::JobFilter filter;
+  api::JobFilter filter = {};
   int page_size = 0;  ///< 0: 50; above 1000: 1000
-  std::string page_token;
+  std::string page_token = {};
 };
 
 /// Who writes for a job. `token` was made by the worker for its Claim call.
@@ -66,8 +66,8 @@ struct Fence {
 struct ClaimQuery {
   std::string worker;
   std::string token;
-  std::vector<std::string> queues;  ///< empty: all
-  std::vector<std::string> kinds;   ///< empty: all
+  std::vector<std::string> queues = {};  ///< empty: all
+  std::vector<std::string> kinds = {};   ///< empty: all
 };
 
 struct Lease {
@@ -183,9 +183,11 @@ class JobStore {
 
   virtual Status UpsertWorker(const WorkerInfo& worker) = 0;
 
-  /// The next job for this worker: of the tenant with the fewest running jobs for its weight, then
-  /// by priority, age and id. nullopt when there is none. The same token again gives the same
-  /// lease. Errors: kFailedPrecondition UNKNOWN_WORKER (register first).
+  /// The next job for this worker: of the tenant with the fewest running jobs for its weight (of
+  /// several that have equally few, they take turns by weight), then by priority, age and id.
+  /// nullopt when there is none. The same token again gives the same lease, as its answer may have
+  /// been lost, and takes it further, but only a few times. Errors: kFailedPrecondition
+  /// UNKNOWN_WORKER (register first).
   virtual StatusOr<std::optional<Lease>> Claim(const ClaimQuery& query) = 0;
 
   /// Takes the lease further. The progress may be empty.
@@ -197,7 +199,7 @@ class JobStore {
                                   int64_t step) = 0;
 
   /// Ends the attempt, and the job unless it is tried again. A wish to cancel wins over everything
-  /// but success. Idempotent for the same fence and outcome.
+  /// but success. Idempotent for the same fence and outcome. Errors: kInvalidArgument BAD_OUTCOME.
   virtual StatusOr<api::JobState> Finish(const Fence& fence, const Outcome& outcome) = 0;
 
   /// Gives the job back, free of charge; it is claimable at once (or CANCELLED, if that was

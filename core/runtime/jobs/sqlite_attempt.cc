@@ -5,6 +5,7 @@
 
 #include "core/runtime/jobs/job_json.h"
 #include "core/runtime/jobs/sqlite_calls.h"
+#include "core/runtime/jobs/sqlite_fence.h"
 #include "core/runtime/jobs/sqlite_lease.h"
 #include "core/runtime/jobs/sqlite_state.h"
 
@@ -66,14 +67,23 @@ StatusOr<api::JobState> EarlierFinish(Transaction& t, const Fence& fence, const 
   return api::ParseJobState(row.Text(0));
 }
 
+StatusOr<api::JobState> EndOwnAttempt(Transaction& t, const Fence& fence, const Outcome& outcome) {
+  const auto lease = EndLease(t.db, fence);
+  if (!lease) return EarlierFinish(t, fence, outcome);
+  return EndAttempt(t, *lease, outcome);
+}
+
+bool IsEnd(api::AttemptOutcome outcome) {
+  return outcome != api::AttemptOutcome::kRunning && outcome != api::AttemptOutcome::kReleased;
+}
+
 }  // namespace
 
 StatusOr<HeartbeatReply> ExtendLease(Transaction& t, const Fence& fence,
                                      const std::optional<base::Progress>& progress) {
   POISE_ASSIGN_OR_RETURN(LiveLease lease, FindLease(t, fence));
-  t.db.Run(
-      fmt::format("UPDATE leases SET expires_at = ?, heartbeat_at = ? WHERE {}", FenceCondition()),
-      t.now + t.policy.lease, t.now, fence.job, fence.attempt, TokenHash(fence.token));
+  t.db.Run("UPDATE leases SET expires_at = ?, heartbeat_at = ? WHERE job = ?",
+           t.now + t.policy.lease, t.now, lease.job);
   POISE_RETURN_IF_ERROR(StoreProgress(t, lease, progress));
   SeeWorker(t, lease.worker);
   return HeartbeatReply{lease.cancelled ? Directive::kCancel : Directive::kContinue,
@@ -85,8 +95,10 @@ Status SaveCheckpoint(Transaction& t, const Fence& fence, const std::string& art
   int64_t number = 0;
   {
     Query row = t.db.Prepare(
-        fmt::format("UPDATE leases SET heartbeat_at = ? WHERE {} RETURNING job", FenceCondition()),
-        t.now, fence.job, fence.attempt, TokenHash(fence.token));
+        fmt::format("UPDATE leases SET heartbeat_at = ?4, step = max(step, ?5) WHERE {} "
+                    "RETURNING job",
+                    FenceCondition()),
+        fence.job, fence.attempt, TokenHash(fence.token), t.now, step);
     if (!row.Step()) return LeaseLost(fence);
     number = row.Int(0);
   }
@@ -105,14 +117,17 @@ Status SaveCheckpoint(Transaction& t, const Fence& fence, const std::string& art
 }
 
 StatusOr<api::JobState> FinishAttempt(Transaction& t, const Fence& fence, const Outcome& outcome) {
-  const auto lease = EndLease(t.db, fence);
-  if (!lease) return EarlierFinish(t, fence, outcome);
-  return EndAttempt(t, *lease, outcome);
+  if (!IsEnd(outcome.outcome)) {
+    return base::InvalidArgument(
+        "BAD_OUTCOME", "outcome",
+        fmt::format("an attempt cannot finish as {}", api::AttemptOutcomeName(outcome.outcome)));
+  }
+  return EndOwnAttempt(t, fence, outcome);
 }
 
 Status ReleaseAttempt(Transaction& t, const Fence& fence, const api::JobUsage& usage) {
   const Outcome released{.outcome = api::AttemptOutcome::kReleased, .usage = usage};
-  return FinishAttempt(t, fence, released).status();
+  return EndOwnAttempt(t, fence, released).status();
 }
 
 }  // namespace poise::jobs::sqlite

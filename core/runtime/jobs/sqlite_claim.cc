@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <compare>
+#include <optional>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/runtime/jobs/job_json.h"
@@ -16,6 +18,8 @@ namespace poise::jobs::sqlite {
 namespace {
 
 constexpr int kMaxPromoted = 256;    // per call, so that a claim stays short
+constexpr int kMaxOverdue = 256;     // the same
+constexpr int kMaxRepeats = 10;      // of a claim whose answer was lost
 constexpr double kMinWeight = 1e-6;  // a tenant of weight 0 comes last
 
 // A job at the head of a tenant's queue; the smallest is next.
@@ -25,9 +29,23 @@ struct Head {
   auto operator<=>(const Head&) const = default;
 };
 
+// How much a tenant has already; the smallest is next. Of those with equally many running jobs for
+// their weight, few slots may keep all at 0, the next is the one with the earliest turn: each claim
+// moves the tenant's turn on by 1 / weight, and a tenant that had nothing to do saves nothing up.
 struct Share {
   double running_per_weight = 0;
+  double turn = 0;
+  auto operator<=>(const Share&) const = default;
+};
+
+struct Candidate {
+  Share share;
   std::string tenant;
+};
+
+struct Choice {
+  Share share;
+  Head head;
 };
 
 bool IsKnown(Transaction& t, const std::string& worker) {
@@ -36,20 +54,23 @@ bool IsKnown(Transaction& t, const std::string& worker) {
 }
 
 // The tenants that may have a job more, those first that have least for their weight.
-std::vector<Share> TenantsByShare(Transaction& t) {
-  std::vector<Share> shares;
-  Query row = t.db.Prepare("SELECT name, running FROM tenants WHERE queued > 0 AND running < ?",
-                           t.policy.max_running_per_tenant);
+std::vector<Candidate> TenantsByShare(Transaction& t) {
+  std::vector<Candidate> candidates;
+  Query row = t.db.Prepare(
+      "SELECT name, running, turn, (SELECT max(turn) FROM tenants) FROM tenants "
+      "WHERE queued > 0 AND running < ?",
+      t.policy.max_running_per_tenant);
   while (row.Step()) {
-    const auto weight = t.policy.tenant_weights.find(row.Text(0));
-    const double of_tenant = weight == t.policy.tenant_weights.end() ? 1.0 : weight->second;
-    shares.push_back(
-        {static_cast<double>(row.Int(1)) / std::max(of_tenant, kMinWeight), row.Text(0)});
+    const auto entry = t.policy.tenant_weights.find(row.Text(0));
+    const double weight =
+        entry == t.policy.tenant_weights.end() ? 1.0 : std::max(entry->second, kMinWeight);
+    candidates.push_back({{.running_per_weight = static_cast<double>(row.Int(1)) / weight,
+                           .turn = std::max(row.Real(2) + 1 / weight, row.Real(3))},
+                          row.Text(0)});
   }
-  std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
-    return a.running_per_weight < b.running_per_weight;
-  });
-  return shares;
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.share < b.share; });
+  return candidates;
 }
 
 // The kinds of which a tenant has claimable jobs, one step in the index for each.
@@ -97,16 +118,12 @@ std::optional<Head> NextOf(Transaction& t, const std::string& tenant, const Clai
 }
 
 // The next job of the tenant with the smallest share; of several with the same, the best head.
-std::optional<Head> NextJob(Transaction& t, const ClaimQuery& query) {
-  std::optional<Head> best;
-  double share = 0;
-  for (const Share& candidate : TenantsByShare(t)) {
-    if (best && candidate.running_per_weight > share) break;
+std::optional<Choice> NextJob(Transaction& t, const ClaimQuery& query) {
+  std::optional<Choice> best;
+  for (const Candidate& candidate : TenantsByShare(t)) {
+    if (best && candidate.share > best->share) break;
     const auto head = NextOf(t, candidate.tenant, query);
-    if (head && (!best || *head < *best)) {
-      best = head;
-      share = candidate.running_per_weight;
-    }
+    if (head && (!best || *head < best->head)) best = Choice{candidate.share, *head};
   }
   return best;
 }
@@ -133,11 +150,11 @@ StatusOr<Lease> StartAttempt(Transaction& t, JobRow job, const ClaimQuery& query
   job.start_time = std::min(job.start_time, t.now);
   const std::string token_hash = TokenHash(query.token);
   POISE_ASSIGN_OR_RETURN(Lease lease, ReadLease(t, job, query));
-  t.db.Run(
-      "INSERT INTO leases (job, attempt, token_hash, worker, expires_at, heartbeat_at) "
-      "VALUES (?, ?, ?, ?, ?, ?)",
-      job.number, job.attempt, token_hash, query.worker, t.now + t.policy.lease, t.now);
   const int64_t from_step = lease.checkpoint ? lease.checkpoint->step : 0;
+  t.db.Run(
+      "INSERT INTO leases (job, attempt, token_hash, worker, expires_at, heartbeat_at, step) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?)",
+      job.number, job.attempt, token_hash, query.worker, t.now + t.policy.lease, t.now, from_step);
   t.db.Run(
       "INSERT INTO attempts (job, attempt, worker, token_hash, outcome, started_at, from_step, "
       "last_step) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
@@ -147,19 +164,24 @@ StatusOr<Lease> StartAttempt(Transaction& t, JobRow job, const ClaimQuery& query
   return lease;
 }
 
-// The lease that an earlier call with this token gave, taken further: its answer was lost.
+// The lease that an earlier call with this token gave, taken further: its answer was lost. A worker
+// that asks again and again, and never hears, loses it in the end.
 StatusOr<std::optional<Lease>> RepeatedClaim(Transaction& t, const ClaimQuery& query) {
   int64_t number = 0;
+  absl::Time expiry;
   {
     Query row = t.db.Prepare(
-        "UPDATE leases SET expires_at = ?, heartbeat_at = ? WHERE worker = ? AND token_hash = ? "
-        "RETURNING job",
-        t.now + t.policy.lease, t.now, query.worker, TokenHash(query.token));
+        "UPDATE leases SET repeats = repeats + 1, heartbeat_at = ?, "
+        "expires_at = CASE WHEN repeats < ? THEN ? ELSE expires_at END "
+        "WHERE worker = ? AND token_hash = ? RETURNING job, expires_at",
+        t.now, kMaxRepeats, t.now + t.policy.lease, query.worker, TokenHash(query.token));
     if (!row.Step()) return std::optional<Lease>();
     number = row.Int(0);
+    expiry = row.Time(1);
   }
   POISE_ASSIGN_OR_RETURN(const JobRow job, ReadJobRow(t.db, number));
   POISE_ASSIGN_OR_RETURN(Lease lease, ReadLease(t, job, query));
+  lease.expires_in = std::max(expiry - t.now, absl::ZeroDuration());
   return std::optional(std::move(lease));
 }
 
@@ -198,17 +220,19 @@ StatusOr<std::optional<Lease>> ClaimJob(Transaction& t, const ClaimQuery& query)
   POISE_ASSIGN_OR_RETURN(auto repeated, RepeatedClaim(t, query));
   if (repeated) return repeated;
   PromoteRetries(t);
-  for (;;) {
-    const auto head = NextJob(t, query);
-    if (!head) return std::optional<Lease>();
-    POISE_ASSIGN_OR_RETURN(JobRow job, ReadJobRow(t.db, head->number));
+  for (int overdue = 0; overdue <= kMaxOverdue; ++overdue) {
+    const auto choice = NextJob(t, query);
+    if (!choice) break;
+    POISE_ASSIGN_OR_RETURN(JobRow job, ReadJobRow(t.db, choice->head.number));
     if (job.deadline <= t.now) {
       ChangeState(t, job, api::JobState::kFailed, DeadlinePassed(job.limits), "");
       continue;
     }
+    t.db.Run("UPDATE tenants SET turn = ? WHERE name = ?", choice->share.turn, job.tenant);
     POISE_ASSIGN_OR_RETURN(Lease lease, StartAttempt(t, std::move(job), query));
     return std::optional(std::move(lease));
   }
+  return std::optional<Lease>();
 }
 
 }  // namespace poise::jobs::sqlite

@@ -49,6 +49,12 @@ constexpr std::array kChecks = {
           "AND NOT EXISTS (SELECT 1 FROM leases WHERE job = number AND "
           "leases.attempt = jobs.attempt)",
           "every running job has its lease"},
+    Check{
+        "leases",
+        "SELECT 'attempt ' || attempts.attempt || ' of job ' || id || ' runs without a lease' "
+        "FROM attempts JOIN jobs ON number = job WHERE outcome = 'RUNNING' AND NOT EXISTS (SELECT "
+        "1 FROM leases WHERE leases.job = number AND leases.attempt = attempts.attempt)",
+        "every attempt without a lease has ended"},
     Check{"leases",
           "SELECT 'job ' || id || ' is ' || state || ' with a lease' FROM leases JOIN jobs ON "
           "number = job WHERE state <> 'RUNNING'",

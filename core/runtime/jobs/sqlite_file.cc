@@ -24,9 +24,12 @@ bool IsNetworkFileSystem(int64_t statfs_type) {
   return std::find(kTypes.begin(), kTypes.end(), statfs_type) != kTypes.end();
 }
 
-StatusOr<FileOwnership> FileOwnership::Take(const fs::path& file) {
-  const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
+StatusOr<FileOwnership> FileOwnership::Take(const fs::path& path) {
+  // A link and what it points to are one file, with one lock.
   std::error_code error;
+  fs::path file = fs::weakly_canonical(path, error);
+  if (error || !file.has_parent_path()) file = fs::path(".") / path;
+  const fs::path folder = file.parent_path();
   fs::create_directories(folder, error);
   struct statfs system {};
   if (!error && statfs(folder.c_str(), &system) == 0 && IsNetworkFileSystem(system.f_type)) {

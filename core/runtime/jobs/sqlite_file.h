@@ -14,7 +14,7 @@ class FileOwnership {
  public:
   /// Makes the folder if it is not there.
   /// Errors: kFailedPrecondition BAD_DATA_DIR, STORE_IN_USE, STORE_ON_NETWORK.
-  static StatusOr<FileOwnership> Take(const std::filesystem::path& file);
+  static StatusOr<FileOwnership> Take(const std::filesystem::path& path);
   FileOwnership(FileOwnership&& other) noexcept;
   FileOwnership& operator=(FileOwnership&&) = delete;
   ~FileOwnership();

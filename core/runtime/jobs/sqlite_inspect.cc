@@ -4,6 +4,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -105,7 +106,9 @@ Status CopyStore(Connection& db, const fs::path& path) {
   fs::remove(partial, error);
   try {
     SQLite::Database copy(partial.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    SQLite::Backup(copy, db.database()).executeStep(-1);
+    if (SQLite::Backup(copy, db.database()).executeStep(-1) != SQLITE_DONE) {
+      throw SQLite::Exception("the store is locked");
+    }
   } catch (const SQLite::Exception& failure) {
     fs::remove(partial, error);
     return CannotWrite(path, failure.what());

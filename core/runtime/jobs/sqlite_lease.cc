@@ -5,6 +5,7 @@
 #include "core/base/sha256.h"
 #include "core/runtime/jobs/job_json.h"
 #include "core/runtime/jobs/job_rules.h"
+#include "core/runtime/jobs/sqlite_fence.h"
 #include "core/runtime/jobs/sqlite_state.h"
 
 namespace poise::jobs::sqlite {
@@ -46,14 +47,6 @@ void StoreOutcome(Transaction& t, const EndedLease& lease, const Outcome& outcom
 }
 
 }  // namespace
-
-std::string_view FenceCondition() {
-#ifdef POISE_MUTANT_WITHOUT_FENCE
-  return "job = (SELECT number FROM jobs WHERE id = ?) AND ? IS NOT NULL AND ? IS NOT NULL";
-#else
-  return "job = (SELECT number FROM jobs WHERE id = ?) AND attempt = ? AND token_hash = ?";
-#endif
-}
 
 std::string TokenHash(const std::string& token) { return base::Sha256Hex(token); }
 

@@ -13,9 +13,6 @@
 
 namespace poise::jobs::sqlite {
 
-/// Which row of `leases` a worker's write must touch; its parameters are the job's id, the attempt
-/// and the token's hash. No row: the lease is somebody else's, or nobody's.
-std::string_view FenceCondition();
 /// What is stored instead of a lease token.
 std::string TokenHash(const std::string& token);
 Status LeaseLost(const Fence& fence);

@@ -17,6 +17,15 @@ Status EndAsLost(Transaction& t, const std::vector<EndedLease>& leases) {
   return absl::OkStatus();
 }
 
+// When the clock was set back, leases keep their length from now on: a dead worker's would last for
+// as long as the clock went back.
+void FollowClock(Transaction& t) {
+  t.db.Run(
+      "UPDATE leases SET expires_at = ?1 + expires_at - heartbeat_at, heartbeat_at = ?1 "
+      "WHERE heartbeat_at > ?1",
+      t.now);
+}
+
 std::vector<int64_t> Numbers(Query& row) {
   std::vector<int64_t> numbers;
   while (row.Step()) numbers.push_back(row.Int(0));
@@ -27,6 +36,7 @@ std::vector<int64_t> Numbers(Query& row) {
 
 StatusOr<int64_t> ReapLeases(Transaction& t, int limit) {
   PromoteRetries(t);
+  FollowClock(t);
   const auto expired = EndLeases(t.db, "expires_at <= ?", absl::ToUnixMillis(t.now), limit);
   POISE_RETURN_IF_ERROR(EndAsLost(t, expired));
   return static_cast<int64_t>(expired.size());

@@ -25,7 +25,8 @@ CREATE TABLE tenants (
   failed INTEGER NOT NULL DEFAULT 0 CHECK (failed >= 0),
   cancelled INTEGER NOT NULL DEFAULT 0 CHECK (cancelled >= 0),
   submitted INTEGER NOT NULL DEFAULT 0,
-  deleted INTEGER NOT NULL DEFAULT 0
+  deleted INTEGER NOT NULL DEFAULT 0,
+  turn REAL NOT NULL DEFAULT 0
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE jobs (
@@ -100,7 +101,8 @@ CREATE TABLE leases (
   progress TEXT,
   step INTEGER NOT NULL DEFAULT 0,
   progress_pending INTEGER NOT NULL DEFAULT 0,
-  progress_event_at INTEGER
+  progress_event_at INTEGER,
+  repeats INTEGER NOT NULL DEFAULT 0
 ) STRICT;
 CREATE INDEX leases_by_token ON leases (worker, token_hash);
 

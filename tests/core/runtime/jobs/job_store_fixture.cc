@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <latch>
 #include <limits>
+#include <thread>
 
 namespace poise::testing {
 
@@ -19,6 +21,12 @@ jobs::JobStore& JobStoreTest::store() {
       std::abort();  // every call that follows would be on nothing
     }
     store_ = std::move(*opened);
+    store_->SetListener({.on_transition =
+                             [this](const jobs::Transition& transition) {
+                               std::lock_guard lock(mutex_);
+                               transitions_.push_back(transition);
+                             },
+                         .on_event = nullptr});
   }
   return *store_;
 }
@@ -32,10 +40,25 @@ jobs::NewJob JobStoreTest::Request(const std::string& request_id) {
   return job;
 }
 
+jobs::NewJob JobStoreTest::RequestOf(const std::string& tenant) {
+  jobs::NewJob job = Request();
+  job.tenant = tenant;
+  return job;
+}
+
 std::string JobStoreTest::Submit(const jobs::NewJob& job) {
   const auto outcome = store().Submit(job);
   EXPECT_TRUE(outcome.ok()) << outcome.status();
   return outcome.ok() ? outcome->job.id : "";
+}
+
+void JobStoreTest::SubmitMany(const jobs::NewJob& job, int count) {
+  constexpr int kThreads = 32;
+  store();
+  std::atomic<int> left = count;
+  InParallel(kThreads, [&](int) {
+    while (--left >= 0) Submit(job);
+  });
 }
 
 api::Job JobStoreTest::Get(const std::string& id, const std::string& tenant) {
@@ -62,6 +85,21 @@ jobs::HeartbeatReply JobStoreTest::Heartbeat(const Lease& lease, int64_t step) {
   return reply.value_or(jobs::HeartbeatReply{});
 }
 
+void JobStoreTest::Checkpoint(const Lease& lease, int64_t step) {
+  const Status status = store().CommitCheckpoint(lease.fence, ArtifactName('c'), step);
+  EXPECT_TRUE(status.ok()) << status;
+}
+
+void JobStoreTest::Release(const Lease& lease) {
+  const Status status = store().Release(lease.fence, {});
+  EXPECT_TRUE(status.ok()) << status;
+}
+
+void JobStoreTest::LoseAllWorkers() {
+  clock_.Advance(policy_.lease);
+  Reap();
+}
+
 int64_t JobStoreTest::Reap() {
   const auto reaped = store().Reap();
   EXPECT_TRUE(reaped.ok()) << reaped.status();
@@ -75,14 +113,8 @@ std::vector<api::JobEvent> JobStoreTest::Events(const std::string& id) {
 }
 
 std::optional<Lease> JobStoreTest::TryClaim(const std::string& worker, jobs::ClaimQuery query) {
-  EXPECT_TRUE(store()
-                  .UpsertWorker({.id = worker,
-                                 .host = "host",
-                                 .engine = "local",
-                                 .engine_ref = "",
-                                 .version = "1",
-                                 .last_seen = {}})
-                  .ok());
+  EXPECT_TRUE(
+      store().UpsertWorker({.id = worker, .host = "host", .engine = "local", .version = "1"}).ok());
   query.worker = worker;
   if (query.token.empty()) query.token = fmt::format("token-{}", ++tokens_);
   auto lease = store().Claim(query);
@@ -94,6 +126,14 @@ Lease JobStoreTest::Claim(const std::string& worker) {
   auto lease = TryClaim(worker);
   EXPECT_TRUE(lease.has_value()) << "no job to claim";
   return lease.value_or(Lease{});
+}
+
+std::string JobStoreTest::RunJob(const Outcome& outcome) {
+  const std::string id = Submit();
+  const Lease lease = Claim();
+  EXPECT_EQ(lease.fence.job, id) << "another job was waiting";
+  Finish(lease, outcome);
+  return id;
 }
 
 std::string JobStoreTest::StateHistory(const std::string& id) {
@@ -120,6 +160,25 @@ void JobStoreTest::ExpectSound() {
         << finding.check << ": " << finding.message;
   }
 }
+
+std::vector<jobs::Transition> JobStoreTest::Transitions() {
+  std::lock_guard lock(mutex_);
+  return transitions_;
+}
+
+void InParallel(int count, const std::function<void(int)>& work) {
+  std::latch start(count);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < count; ++i) {
+    threads.emplace_back([&, i] {
+      start.arrive_and_wait();
+      work(i);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+std::string ArtifactName(char digit) { return "artifacts/" + std::string(64, digit); }
 
 Outcome Success() { return EndedAs(api::AttemptOutcome::kSucceeded); }
 

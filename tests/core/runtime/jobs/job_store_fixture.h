@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,8 +16,8 @@
 #include "core/runtime/jobs/job_store.h"
 #include "tests/support/temporary_folder.h"
 
-/// What every test of a job store needs. The tests are written against JobStore alone; a store
-/// joins by instantiating JobStoreTest with its StoreKind.
+/// What every test of a job store needs. The tests are written against JobStore alone, each file
+/// about one subject; a store joins them all by its line in StoreKinds().
 namespace poise::testing {
 
 /// A clock that stands still until it is told to go on. Threads: any.
@@ -35,6 +36,9 @@ struct StoreKind {
                                                     const jobs::JobPolicy& policy,
                                                     std::function<absl::Time()> clock);
 };
+/// store_kinds.cc: INSTANTIATE_TEST_SUITE_P(Stores, X, ValuesIn(StoreKinds()), NameOfKind).
+const std::vector<StoreKind>& StoreKinds();
+std::string NameOfKind(const ::testing::TestParamInfo<StoreKind>& info);
 inline void PrintTo(const StoreKind& kind, std::ostream* out) { *out << kind.name; }
 
 class JobStoreTest : public ::testing::TestWithParam<StoreKind> {
@@ -45,14 +49,21 @@ class JobStoreTest : public ::testing::TestWithParam<StoreKind> {
 
   /// A request for a job of kind "selftest".
   static jobs::NewJob Request(const std::string& request_id = "");
+  static jobs::NewJob RequestOf(const std::string& tenant);
 
   // Each makes the call, expects OK and returns what it gave.
   std::string Submit(const jobs::NewJob& job = Request());
+  /// `count` times the same, from several threads.
+  void SubmitMany(const jobs::NewJob& job, int count);
   api::Job Get(const std::string& id, const std::string& tenant = "default");
   api::Job Cancel(const std::string& id);
   api::JobState Finish(const jobs::Lease& lease, const jobs::Outcome& outcome);
   jobs::HeartbeatReply Heartbeat(const jobs::Lease& lease, int64_t step = 0);
+  void Checkpoint(const jobs::Lease& lease, int64_t step);
+  void Release(const jobs::Lease& lease);
   int64_t Reap();
+  /// The worker of every lease dies and is noticed.
+  void LoseAllWorkers();
   std::vector<api::JobEvent> Events(const std::string& id);
 
   /// The next job for a worker, which is made known first; with a new token.
@@ -60,20 +71,32 @@ class JobStoreTest : public ::testing::TestWithParam<StoreKind> {
                                       jobs::ClaimQuery query = {});
   /// The same, and there must be one.
   jobs::Lease Claim(const std::string& worker = "worker-1");
+  /// Makes a job known, claims it and ends its attempt; returns its id.
+  std::string RunJob(const jobs::Outcome& outcome);
 
   /// "QUEUED RUNNING ...": the states in a job's events, after a check that no change is missing.
   std::string StateHistory(const std::string& id);
   /// Expects that the store finds no fault in itself.
   void ExpectSound();
+  /// What the listener was told since the store was opened.
+  std::vector<jobs::Transition> Transitions();
 
   jobs::JobPolicy policy_;
   TestClock clock_;
   TemporaryFolder folder_;
 
  private:
+  std::mutex mutex_;
+  std::vector<jobs::Transition> transitions_;
   std::unique_ptr<jobs::JobStore> store_;
   std::atomic<int> tokens_ = 0;
 };
+
+/// Calls `work(i)` for i = 0 .. count - 1, each on a thread of its own, all begun at once.
+void InParallel(int count, const std::function<void(int)>& work);
+
+/// "artifacts/" and 64 times the digit.
+std::string ArtifactName(char digit);
 
 // Ways in which an attempt ends.
 jobs::Outcome Success();

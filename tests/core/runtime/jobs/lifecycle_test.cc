@@ -9,7 +9,9 @@ using api::JobState;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-TEST_P(JobStoreTest, KeepsEverythingThatWasAskedFor) {
+class LifecycleTest : public JobStoreTest {};
+
+TEST_P(LifecycleTest, KeepsEverythingThatWasAskedFor) {
   jobs::NewJob request = Request("once");
   request.trace_id = "trace-1";
   request.request.queue = "fast";
@@ -46,7 +48,7 @@ TEST_P(JobStoreTest, KeepsEverythingThatWasAskedFor) {
   EXPECT_THAT(job.attempts, IsEmpty());
 }
 
-TEST_P(JobStoreTest, RunsAJobToSuccess) {
+TEST_P(LifecycleTest, RunsAJobToSuccess) {
   jobs::NewJob request = Request();
   request.request.seed = 42;
   request.request.limits.deadline = absl::Minutes(10);
@@ -99,7 +101,7 @@ TEST_P(JobStoreTest, RunsAJobToSuccess) {
   ExpectSound();
 }
 
-TEST_P(JobStoreTest, FinishTwiceIsOnce) {
+TEST_P(LifecycleTest, FinishTwiceIsOnce) {
   const std::string id = Submit();
   const jobs::Lease lease = Claim();
   EXPECT_EQ(Finish(lease, Success()), JobState::kSucceeded);
@@ -109,7 +111,7 @@ TEST_P(JobStoreTest, FinishTwiceIsOnce) {
   EXPECT_EQ(StateHistory(id), "QUEUED RUNNING SUCCEEDED");
 }
 
-TEST_P(JobStoreTest, FinishTwiceTellsWhatTheFirstLedTo) {
+TEST_P(LifecycleTest, FinishTwiceTellsWhatTheFirstLedTo) {
   const std::string id = Submit();
   const jobs::Lease lease = Claim();
   const jobs::Outcome broken = ErrorWith(absl::StatusCode::kUnavailable);
@@ -121,7 +123,7 @@ TEST_P(JobStoreTest, FinishTwiceTellsWhatTheFirstLedTo) {
   EXPECT_EQ(Get(id).errors, 1);
 }
 
-TEST_P(JobStoreTest, AnotherTenantsJobIsNotFound) {
+TEST_P(LifecycleTest, AnotherTenantsJobIsNotFound) {
   const std::string id = Submit();
   EXPECT_EQ(ReasonOf(store().Get("other", id)), "JOB_NOT_FOUND");
   EXPECT_EQ(ReasonOf(store().RequestCancel("other", id, "x")), "JOB_NOT_FOUND");
@@ -130,13 +132,13 @@ TEST_P(JobStoreTest, AnotherTenantsJobIsNotFound) {
   EXPECT_EQ(ReasonOf(store().ReadEvents("nothing", 0, 10)), "JOB_NOT_FOUND");
 }
 
-TEST_P(JobStoreTest, AWorkerRegistersFirst) {
+TEST_P(LifecycleTest, AWorkerRegistersFirst) {
   Submit();
   jobs::ClaimQuery query{"stranger", "token", {}, {}};
   EXPECT_EQ(ReasonOf(store().Claim(query)), "UNKNOWN_WORKER");
 }
 
-TEST_P(JobStoreTest, AClaimRepeatedWithItsTokenGivesTheSameLease) {
+TEST_P(LifecycleTest, AClaimRepeatedWithItsTokenGivesTheSameLease) {
   Submit();
   Submit();
   jobs::ClaimQuery query;
@@ -151,7 +153,7 @@ TEST_P(JobStoreTest, AClaimRepeatedWithItsTokenGivesTheSameLease) {
   EXPECT_EQ(store().Stats()->leases, 2);
 }
 
-TEST_P(JobStoreTest, AnotherAttemptFollowsALostWorker) {
+TEST_P(LifecycleTest, AnotherAttemptFollowsALostWorker) {
   const std::string id = Submit();
   const jobs::Lease lost = Claim("worker-1");
   clock_.Advance(policy_.lease);
@@ -166,6 +168,8 @@ TEST_P(JobStoreTest, AnotherAttemptFollowsALostWorker) {
   EXPECT_EQ(StateHistory(id), "QUEUED RUNNING QUEUED RUNNING SUCCEEDED");
   ExpectSound();
 }
+
+INSTANTIATE_TEST_SUITE_P(Stores, LifecycleTest, ::testing::ValuesIn(StoreKinds()), NameOfKind);
 
 }  // namespace
 }  // namespace poise::testing

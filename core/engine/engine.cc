@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/engine/clip_catalog.h"
+#include "core/runtime/jobs/sqlite_job_store.h"
 
 namespace poise::engine {
 namespace {
@@ -21,15 +22,22 @@ motion::SourceConvention FileConvention(CatalogClip& clip) {
 
 StatusOr<std::unique_ptr<Engine>> Engine::Create(const EngineConfig& config,
                                                  base::Telemetry& telemetry) {
+  POISE_RETURN_IF_ERROR(config.jobs.Validate());
+  // First: who has the jobs has the folder, and a second process must not touch the artifacts.
+  POISE_ASSIGN_OR_RETURN(std::unique_ptr<jobs::JobStore> store,
+                         jobs::OpenSqliteJobStore(
+                             {.path = config.data_dir / "jobs.db", .policy = config.jobs.policy}));
   POISE_ASSIGN_OR_RETURN(std::unique_ptr<artifacts::ArtifactStore> artifacts,
                          artifacts::ArtifactStore::Create({.root = config.data_dir / "artifacts"}));
-  return std::unique_ptr<Engine>(new Engine(config, std::move(artifacts), telemetry));
+  return std::unique_ptr<Engine>(
+      new Engine(config, std::move(artifacts), std::move(store), telemetry));
 }
 
 Engine::Engine(EngineConfig config, std::unique_ptr<artifacts::ArtifactStore> artifacts,
-               base::Telemetry& telemetry)
+               std::unique_ptr<jobs::JobStore> store, base::Telemetry& telemetry)
     : config_(std::move(config)),
       artifacts_(std::move(artifacts)),
+      jobs_(std::make_unique<JobManager>(config_.jobs, std::move(store), *artifacts_, telemetry)),
       sources_resolved_(telemetry.counter("poise_augment_sources_total",
                                           "Source clips decoded for augmentation", {})),
       compute_(std::make_unique<base::ThreadPool>(config_.compute_threads)) {}

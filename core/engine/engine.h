@@ -11,21 +11,24 @@
 #include "core/base/telemetry.h"
 #include "core/base/thread_pool.h"
 #include "core/engine/augment_run.h"
+#include "core/engine/job_manager.h"
 
 namespace poise::engine {
 
 struct EngineConfig {
-  std::filesystem::path data_dir;  ///< artifacts live below it; made when absent
+  std::filesystem::path data_dir;  ///< artifacts and jobs live below it; made when absent
   int compute_threads = 0;         ///< <= 0: one per available CPU
   /// [frames, > 0] Frames that one request may ask for: variants times the frames of their sources.
   int64_t max_output_frames = 2'000'000'000;
+  JobManagerConfig jobs = JobManagerConfig();
 };
 
 /// Everything that outlives a request, built once per process: what the handlers call.
 /// Threads: all members may be called from any thread.
 class Engine {
  public:
-  /// Errors: kFailedPrecondition BAD_DATA_DIR.
+  /// Errors: kFailedPrecondition BAD_DATA_DIR; those of OpenSqliteJobStore and
+  /// JobManagerConfig::Validate.
   static StatusOr<std::unique_ptr<Engine>> Create(const EngineConfig& config,
                                                   base::Telemetry& telemetry);
 
@@ -37,14 +40,16 @@ class Engine {
                                                        const base::RunContext& context);
 
   artifacts::ArtifactStore& artifacts() { return *artifacts_; }
+  JobManager& jobs() { return *jobs_; }
   base::ThreadPool& compute() { return *compute_; }
 
  private:
   Engine(EngineConfig config, std::unique_ptr<artifacts::ArtifactStore> artifacts,
-         base::Telemetry& telemetry);
+         std::unique_ptr<jobs::JobStore> store, base::Telemetry& telemetry);
 
   EngineConfig config_;
   std::unique_ptr<artifacts::ArtifactStore> artifacts_;
+  std::unique_ptr<JobManager> jobs_;
   base::Counter& sources_resolved_;
   std::unique_ptr<base::ThreadPool> compute_;
 };

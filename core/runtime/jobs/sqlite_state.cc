@@ -73,7 +73,8 @@ void Announce(Transaction& t, const JobRow& job, std::optional<JobState> before,
                            .from = before,
                            .to = to,
                            .error = error,
-                           .in_state = t.now - job.state_since});
+                           .in_state = t.now - job.state_since,
+                           .next_attempt_time = job.retry_time});
 }
 
 // Every second progress event of the job goes, but neither the first nor the newest.

@@ -3,15 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <random>
 
 #include "absl/time/clock.h"
+#include "core/base/identifier.h"
 
 namespace poise::server {
 namespace {
 
 constexpr char kRequestIdKey[] = "x-request-id";
+constexpr char kTenantKey[] = "x-poise-tenant";
+constexpr char kTraceKey[] = "traceparent";
 constexpr size_t kMaxRequestId = 128;
+constexpr size_t kMaxTenant = 63;
 constexpr absl::Duration kRetryDelay = absl::Seconds(1);
 
 std::string Metadata(const grpc::CallbackServerContext& context, const char* key) {
@@ -31,6 +36,33 @@ std::string NewRequestId() {
   static thread_local std::mt19937_64 engine{(uint64_t{std::random_device()()} << 32) ^
                                              std::random_device()()};
   return fmt::format("{:016x}", engine());
+}
+
+// Safe in filters, metrics and log lines.
+StatusOr<std::string> TenantOf(const grpc::CallbackServerContext& context) {
+  const std::string tenant = Metadata(context, kTenantKey);
+  if (tenant.empty()) return "default";
+  const bool usable =
+      tenant.size() <= kMaxTenant && std::all_of(tenant.begin(), tenant.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
+      });
+  if (usable) return tenant;
+  return base::InvalidArgument("BAD_TENANT", kTenantKey,
+                               fmt::format("expected 1 to {} letters, digits, '-', '_' or '.' in "
+                                           "the metadata {}",
+                                           kMaxTenant, kTenantKey));
+}
+
+// "00-<32 hex digits>-<16 hex digits>-<2 hex digits>" (W3C Trace Context): the 32.
+std::string TraceIdOf(const grpc::CallbackServerContext& context) {
+  constexpr size_t kLength = 55, kIdBegin = 3, kIdLength = 32;
+  const std::string trace = Metadata(context, kTraceKey);
+  if (trace.size() >= kLength && trace[2] == '-' && trace[kIdBegin + kIdLength] == '-') {
+    std::string id = trace.substr(kIdBegin, kIdLength);
+    const bool hex = id.find_first_not_of("0123456789abcdef") == std::string::npos;
+    if (hex && id.find_first_not_of('0') != std::string::npos) return id;
+  }
+  return base::RandomHex(kIdLength / 2);
 }
 
 // "ipv4:10.0.0.1:4242" -> "ipv4:10.0.0.1": a client is an address, whatever port it uses.
@@ -56,33 +88,41 @@ bool SameSecret(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-Call::Call(Admission& admission, std::string peer, std::string request_id, absl::Time deadline)
-    : admission_(admission), peer_(std::move(peer)), request_id_(std::move(request_id)) {
+Call::Call(Admission& admission, CallOrigin origin, Place place, absl::Time deadline)
+    : admission_(admission), origin_(std::move(origin)), place_(place) {
   run_.deadline = deadline;
 }
 
-Call::~Call() { admission_.GivePlace(peer_); }
+Call::~Call() { admission_.GivePlace(origin_.peer, place_); }
 
 Admission::Admission(AdmissionConfig config, base::Telemetry& telemetry)
     : config_(std::move(config)),
       calls_gauge_(telemetry.gauge("poise_calls_at_work", "Admitted calls that are not done", {})),
+      waiting_gauge_(
+          telemetry.gauge("poise_calls_waiting", "Admitted calls that wait for something", {})),
       refused_(
           telemetry.counter("poise_calls_refused_total", "Calls refused before any work", {})) {}
 
 StatusOr<std::unique_ptr<Call>> Admission::Admit(grpc::CallbackServerContext& context,
                                                  const MethodPolicy& policy) {
-  std::string request_id = Metadata(context, kRequestIdKey);
-  if (!IsUsableRequestId(request_id)) request_id = NewRequestId();
-  context.AddInitialMetadata(kRequestIdKey, request_id);
-  const std::string peer = WithoutPort(context.peer());
+  CallOrigin origin{.peer = WithoutPort(context.peer()),
+                    .request_id = Metadata(context, kRequestIdKey),
+                    .tenant = "default",
+                    .trace_id = TraceIdOf(context)};
+  if (!IsUsableRequestId(origin.request_id)) origin.request_id = NewRequestId();
+  context.AddInitialMetadata(kRequestIdKey, origin.request_id);
   Status status = CheckToken(context);
-  if (status.ok()) status = TakePlace(peer);
+  if (status.ok()) {
+    StatusOr<std::string> tenant = TenantOf(context);
+    status = tenant.ok() ? TakePlace(origin.peer, policy.place) : tenant.status();
+    if (tenant.ok()) origin.tenant = *std::move(tenant);
+  }
   if (!status.ok()) {
     refused_.Increment();
     return status;
   }
   return std::unique_ptr<Call>(
-      new Call(*this, peer, std::move(request_id), Deadline(context, policy)));
+      new Call(*this, std::move(origin), policy.place, Deadline(context, policy)));
 }
 
 Status Admission::CheckToken(const grpc::CallbackServerContext& context) const {
@@ -100,7 +140,7 @@ Status Admission::CheckToken(const grpc::CallbackServerContext& context) const {
   return absl::OkStatus();
 }
 
-Status Admission::TakePlace(const std::string& peer) {
+Status Admission::TakePlace(const std::string& peer, Place place) {
   std::lock_guard lock(mutex_);
   if (closed_) {
     return base::WithRetryDelay(
@@ -108,6 +148,10 @@ Status Admission::TakePlace(const std::string& peer) {
                         "this server is shutting down: try again, at another one"),
         kRetryDelay);
   }
+  return place == Place::kWork ? TakeWork(peer) : TakeWaiting(place);
+}
+
+Status Admission::TakeWork(const std::string& peer) {
   if (calls_ >= config_.max_calls) {
     return base::WithRetryDelay(
         base::ResourceExhausted("TOO_MANY_CALLS", "",
@@ -130,18 +174,37 @@ Status Admission::TakePlace(const std::string& peer) {
   return absl::OkStatus();
 }
 
-void Admission::GivePlace(const std::string& peer) {
+Status Admission::TakeWaiting(Place place) {
+  const double share = place == Place::kWatch ? 1.0 - config_.worker_share : 1.0;
+  if (waiting_ >= config_.max_waiting_calls * share) {
+    return base::WithRetryDelay(
+        base::ResourceExhausted("TOO_MANY_WAITING_CALLS", "",
+                                fmt::format("{} calls wait, at most {}: try again later", waiting_,
+                                            static_cast<int>(config_.max_waiting_calls * share))),
+        kRetryDelay);
+  }
+  ++waiting_;
+  waiting_gauge_.Set(waiting_);
+  return absl::OkStatus();
+}
+
+void Admission::GivePlace(const std::string& peer, Place place) {
   std::lock_guard lock(mutex_);
-  --calls_;
-  calls_gauge_.Set(calls_);
-  const auto of_peer = calls_of_peer_.find(peer);
-  if (--of_peer->second == 0) calls_of_peer_.erase(of_peer);
-  if (calls_ == 0) idle_.notify_all();
+  if (place == Place::kWork) {
+    --calls_;
+    calls_gauge_.Set(calls_);
+    const auto of_peer = calls_of_peer_.find(peer);
+    if (--of_peer->second == 0) calls_of_peer_.erase(of_peer);
+  } else {
+    --waiting_;
+    waiting_gauge_.Set(waiting_);
+  }
+  if (calls_ + waiting_ == 0) idle_.notify_all();
 }
 
 void Admission::WaitUntilIdle() {
   std::unique_lock lock(mutex_);
-  idle_.wait(lock, [this] { return calls_ == 0; });
+  idle_.wait(lock, [this] { return calls_ + waiting_ == 0; });
 }
 
 void Admission::Close() {
@@ -151,7 +214,7 @@ void Admission::Close() {
 
 int Admission::calls() const {
   std::lock_guard lock(mutex_);
-  return calls_;
+  return calls_ + waiting_;
 }
 
 }  // namespace poise::server

@@ -44,6 +44,8 @@ class MessageStream : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
   /// Message `ordinal`. Runs on the pool, for several ordinals at the same time.
   virtual StatusOr<grpc::ByteBuffer> Make(int64_t ordinal, const base::RunContext& context) = 0;
 
+  const Call& call() const { return *call_; }
+
  private:
   static constexpr size_t kWindowBytes = 8 << 20;
   // How long past the deadline a client may take to read the message under way.

@@ -7,88 +7,25 @@
 #include <cmath>
 #include <condition_variable>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <mutex>
 #include <thread>
 
 #include "absl/time/clock.h"
+#include "core/base/fail_point.h"
 #include "core/base/json.h"
 #include "core/base/memory_policy.h"
 #include "core/base/version.h"
 #include "core/engine/engine.h"
 #include "core/learning/nn/blas_probe.h"
+#include "server/job_log_lines.h"
 #include "server/log.h"
+#include "server/poised_options.h"
 #include "server/server.h"
 #include "server/shutdown_signal.h"
 #include "server/telemetry/prometheus_telemetry.h"
 
 namespace poise::server {
 namespace {
-
-struct Options {
-  ServerConfig server;
-  engine::EngineConfig engine{.data_dir = "poise-data"};
-  int workers = 0;
-  std::string store = "sqlite";
-  std::string metrics;
-  std::string log_level = "info";
-  std::string token_file;
-  double lame_duck_s = 5;
-  double drain_s = 25;
-};
-
-void AddFlags(Options& options, CLI::App& app) {
-  app.add_option("--listen", options.server.listen, "ADDR:PORT to serve on; port 0: any free one")
-      ->capture_default_str();
-  app.add_option("--data-dir", options.engine.data_dir, "Folder for artifacts and jobs")
-      ->capture_default_str();
-  app.add_option("--compute-threads", options.engine.compute_threads,
-                 "Threads that make variants; 0: one per CPU")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  app.add_option("--workers", options.workers, "Worker processes for long jobs on this machine")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  app.add_option("--store", options.store, "Where jobs are kept: sqlite")->capture_default_str();
-  app.add_option("--metrics", options.metrics, "ADDR:PORT of the Prometheus page; empty: none");
-  app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error or off")
-      ->capture_default_str();
-  app.add_option("--token-file", options.token_file,
-                 "File with the token that calls must carry (else POISE_TOKEN, if set)")
-      ->check(CLI::ExistingFile);
-  app.add_option("--max-calls", options.server.admission.max_calls, "Calls at work at a time")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str();
-  app.add_option("--max-calls-per-client", options.server.admission.max_calls_per_peer,
-                 "Calls at work at a time from one address")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str();
-  app.add_option("--max-output-frames", options.engine.max_output_frames,
-                 "Variants times frames that one request may ask for")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--lame-duck-seconds", options.lame_duck_s,
-                 "After SIGTERM: time to serve on, announced as not serving")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
-  app.add_option("--drain-seconds", options.drain_s, "Then: time for running calls to finish")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
-}
-
-Status ReadToken(const Options& options, std::string& token) {
-  if (!options.token_file.empty()) {
-    std::ifstream file(options.token_file);
-    if (!(file >> token)) {
-      return base::FailedPrecondition("BAD_TOKEN_FILE", "token_file",
-                                      fmt::format("{} holds no token", options.token_file));
-    }
-  } else if (const char* variable = std::getenv("POISE_TOKEN")) {
-    token = variable;
-  }
-  return absl::OkStatus();
-}
 
 // Ends the process when draining takes longer than it may: a handler that ignores its cancellation
 // must not keep an orchestrator waiting.
@@ -121,7 +58,7 @@ class Watchdog {
 };
 
 // NOT_SERVING, serve on for the lame-duck time, then let calls finish. A second signal hurries.
-void Drain(const Options& options, Server& server) {
+void Drain(const PoisedOptions& options, Server& server) {
   const absl::Duration lame_duck = absl::Seconds(options.lame_duck_s);
   const absl::Duration drain = absl::Seconds(options.drain_s);
   constexpr absl::Duration kMargin = absl::Seconds(10);
@@ -133,18 +70,36 @@ void Drain(const Options& options, Server& server) {
   Log(level::info, "stopped");
 }
 
-Status Serve(Options options) {
+// Waits for another process to let go of the data folder, for --takeover-seconds at most. Null:
+// the wait was ended by a signal.
+StatusOr<std::unique_ptr<engine::Engine>> TakeOver(const PoisedOptions& options,
+                                                   base::Telemetry& telemetry) {
+  constexpr absl::Duration kPause = absl::Milliseconds(50);
+  const absl::Time end = absl::Now() + absl::Seconds(options.takeover_s);
+  for (bool said = false;; said = true) {
+    auto engine = engine::Engine::Create(options.engine, telemetry);
+    const bool in_use = base::ErrorReason(engine.status()) == "STORE_IN_USE";
+    if (!in_use || absl::Now() >= end) return engine;
+    if (!said) Log(level::info, "waiting_for_store", {{"message", base::Message(engine.status())}});
+    if (WaitForShutdownSignal(kPause)) return nullptr;
+  }
+}
+
+Status Serve(PoisedOptions options) {
   POISE_RETURN_IF_ERROR(StartLog(options.log_level));
   if (options.store != "sqlite") {
     return base::InvalidArgument(
         "UNKNOWN_STORE", "store",
         fmt::format("this version keeps no jobs in '{}', expected sqlite", options.store));
   }
-  POISE_RETURN_IF_ERROR(ReadToken(options, options.server.admission.token));
+  POISE_ASSIGN_OR_RETURN(options.server.admission.token, ReadToken(options));
   PrometheusTelemetry telemetry;
-  if (!options.metrics.empty()) POISE_RETURN_IF_ERROR(telemetry.Expose(options.metrics));
+  JobLogLines job_log;
+  options.engine.jobs.log = &job_log;
   POISE_ASSIGN_OR_RETURN(const std::unique_ptr<engine::Engine> engine,
-                         engine::Engine::Create(options.engine, telemetry));
+                         TakeOver(options, telemetry));
+  if (engine == nullptr) return absl::OkStatus();
+  if (!options.metrics.empty()) POISE_RETURN_IF_ERROR(telemetry.Expose(options.metrics));
   const double gflops = learning::MeasureSgemmGflops();
   telemetry.gauge("poise_sgemm_gflops_per_core", "Matrix product rate at start", {}).Set(gflops);
   if (gflops < learning::kFaultySgemmGflops) {
@@ -181,9 +136,10 @@ int ExitCode(absl::StatusCode code) {
 }
 
 int Main(int argc, char** argv) {
+  base::SetFailPointsFromEnvironment();
   base::KeepFreedMemory();
   CatchShutdownSignals();
-  Options options;
+  PoisedOptions options;
   CLI::App app{"poised: the Poise server. Motion clips in, variants out, over gRPC."};
   app.set_version_flag("--version", base::Version());
   AddFlags(options, app);

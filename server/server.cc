@@ -6,7 +6,6 @@
 #include <grpcpp/resource_quota.h>
 #include <grpcpp/server_builder.h>
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -25,9 +24,7 @@ constexpr int kMaxSynchronousThreads = 32;   // reflection, the one service of t
 // Connections are told to go after kConnectionAgeMs, but a stream may live as long as its method
 // allows: cutting it after minutes would make an all-night Augment impossible.
 int ConnectionGraceMs(const MethodPolicies& methods) {
-  const absl::Duration longest = std::max(
-      {methods.augment.max_deadline, methods.upload.max_deadline, methods.download.max_deadline});
-  return static_cast<int>(absl::ToInt64Milliseconds(longest));
+  return static_cast<int>(absl::ToInt64Milliseconds(methods.longest()));
 }
 
 void SetChannelArguments(const ServerConfig& config, grpc::ServerBuilder& builder) {
@@ -62,9 +59,13 @@ StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config, engi
 }
 
 Server::Server(const ServerConfig& config, engine::Engine& engine, base::Telemetry& telemetry)
-    : admission_(config.admission, telemetry),
+    : job_manager_(engine.jobs()),
+      admission_(config.admission, telemetry),
+      store_calls_(config.store_threads),
       augmentation_(engine, admission_, config.methods.augment, telemetry),
-      artifacts_(engine.artifacts(), admission_, config.methods) {}
+      artifacts_(engine.artifacts(), admission_, config.methods),
+      jobs_(engine.jobs(), engine.artifacts(), store_calls_, admission_, config.methods, drain_),
+      workers_(engine.jobs(), store_calls_, admission_, config.methods.worker, drain_) {}
 
 Server::~Server() {
   if (server_) Shutdown(absl::InfinitePast());
@@ -79,6 +80,8 @@ Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
   builder.AddListeningPort(config.listen, grpc::InsecureServerCredentials(), &port);
   builder.RegisterService(&augmentation_);
   builder.RegisterService(&artifacts_);
+  builder.RegisterService(&jobs_);
+  builder.RegisterService(&workers_);
   builder.RegisterCallbackGenericService(&unknown_method_);
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
   interceptors.push_back(std::make_unique<RequestLogFactory>(telemetry));
@@ -94,16 +97,25 @@ Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
   }
   address_ = fmt::format("{}:{}", config.listen.substr(0, config.listen.rfind(':')), port);
   for (const char* service :
-       {v1::AugmentationService::service_full_name(), v1::ArtifactService::service_full_name()}) {
+       {v1::AugmentationService::service_full_name(), v1::ArtifactService::service_full_name(),
+        v1::JobService::service_full_name(), v1::WorkerService::service_full_name()}) {
     server_->GetHealthCheckService()->SetServingStatus(service, true);
   }
   return absl::OkStatus();
 }
 
-void Server::AnnounceShutdown() { server_->GetHealthCheckService()->SetServingStatus(false); }
+void Server::AnnounceShutdown() {
+  server_->GetHealthCheckService()->SetServingStatus(false);
+  drain_.announced = true;
+  job_manager_.lease_waiters().WakeAll();
+}
 
 void Server::Shutdown(absl::Time deadline) {
   admission_.Close();
+  drain_.ending = true;
+  job_manager_.lease_waiters().WakeAll();
+  job_manager_.news().PublishToAll();
+  job_manager_.transitions().PublishToAll();
   server_->Shutdown(absl::ToChronoTime(deadline));
   admission_.WaitUntilIdle();
 }

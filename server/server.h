@@ -13,7 +13,10 @@
 #include "server/admission/admission.h"
 #include "server/handlers/artifact_handler.h"
 #include "server/handlers/augmentation_handler.h"
+#include "server/handlers/drain_state.h"
+#include "server/handlers/job_handler.h"
 #include "server/handlers/unknown_method_handler.h"
+#include "server/handlers/worker_handler.h"
 
 namespace poise::server {
 
@@ -23,6 +26,8 @@ struct ServerConfig {
   MethodPolicies methods;
   int max_message_bytes = 64 << 20;         ///< [bytes] larger files go through ArtifactService
   int64_t max_transport_bytes = 1LL << 30;  ///< [bytes] what gRPC's buffers may take together
+  /// [> 0] Threads that wait for the job store: so many writes share one sync of the disk.
+  int store_threads = 32;
 };
 
 /// The services on one port, with health and reflection.
@@ -38,19 +43,25 @@ class Server {
   const std::string& address() const { return address_; }
   int calls() const { return admission_.calls(); }
 
-  /// Tells health checks that no new work should come; calls are served as before.
+  /// Tells health checks that no new work should come, and workers that wait for a job to ask
+  /// elsewhere; all other calls are served as before.
   void AnnounceShutdown();
-  /// Closes the port, lets calls finish until the deadline, then cancels them. Returns when all
-  /// are done.
+  /// Closes the port, sends away who watches or waits, lets calls finish until the deadline, then
+  /// cancels them. Returns when all are done.
   void Shutdown(absl::Time deadline);
 
  private:
   Server(const ServerConfig& config, engine::Engine& engine, base::Telemetry& telemetry);
   Status Listen(const ServerConfig& config, base::Telemetry& telemetry);
 
+  engine::JobManager& job_manager_;
+  DrainState drain_;
   Admission admission_;
+  base::ThreadPool store_calls_;
   AugmentationHandler augmentation_;
   ArtifactHandler artifacts_;
+  JobHandler jobs_;
+  WorkerHandler workers_;
   UnknownMethodHandler unknown_method_;
   std::unique_ptr<grpc::Server> server_;
   std::string address_;

@@ -25,11 +25,15 @@ Value OrDie(StatusOr<Value> value) {
 
 }  // namespace
 
-TestServer::TestServer(server::ServerConfig config, int compute_threads) {
+TestServer::TestServer(server::ServerConfig config, int compute_threads)
+    : TestServer(std::move(config), compute_threads, engine::JobManagerConfig()) {}
+
+TestServer::TestServer(server::ServerConfig config, int compute_threads,
+                       const engine::JobManagerConfig& jobs) {
   server::StartLog("off").IgnoreError();
   config.listen = "127.0.0.1:0";
   engine_ = OrDie(engine::Engine::Create(
-      {.data_dir = folder_.path(), .compute_threads = compute_threads}, telemetry_));
+      {.data_dir = folder_.path(), .compute_threads = compute_threads, .jobs = jobs}, telemetry_));
   server_ = OrDie(server::Server::Start(config, *engine_, telemetry_));
   channel_ = NewChannel();
 }

@@ -20,12 +20,16 @@ namespace poise::testing {
 class TestServer {
  public:
   explicit TestServer(server::ServerConfig config = {}, int compute_threads = 2);
+  TestServer(server::ServerConfig config, int compute_threads,
+             const engine::JobManagerConfig& jobs);
 
   /// A connection of its own, not shared with other channels.
   std::shared_ptr<grpc::Channel> NewChannel() const;
   std::shared_ptr<grpc::Channel> channel() const { return channel_; }
 
   server::Server& server() { return *server_; }
+  engine::Engine& engine() { return *engine_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
   server::PrometheusTelemetry& telemetry() { return telemetry_; }
 
  private:

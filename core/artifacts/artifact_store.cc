@@ -9,12 +9,15 @@
 #include <cerrno>
 #include <cstring>
 
+#include "absl/time/clock.h"
 #include "core/artifacts/artifact_name.h"
 
 namespace poise::artifacts {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr absl::Duration kCollectionInterval = absl::Hours(1);
 
 // An open artifact and its size.
 class File {
@@ -69,16 +72,39 @@ StatusOr<std::unique_ptr<ArtifactStore>> ArtifactStore::Create(ArtifactStoreConf
   std::error_code error;
   fs::remove_all(staging, error);
   if (!error) fs::create_directories(staging, error);
+  if (!error) fs::create_directories(config.root / "uploads", error);
   if (error || access(staging.c_str(), W_OK) != 0) {
     return base::FailedPrecondition("BAD_DATA_DIR", "data_dir",
                                     fmt::format("cannot write below '{}': {}", config.root.string(),
                                                 error ? error.message() : std::strerror(errno)));
   }
-  return std::unique_ptr<ArtifactStore>(new ArtifactStore(std::move(config)));
+  std::unique_ptr<ArtifactStore> store(new ArtifactStore(std::move(config)));
+  store->CollectUploads(absl::Now());
+  return store;
 }
 
 StatusOr<std::unique_ptr<ArtifactWriter>> ArtifactStore::NewWriter() {
-  return ArtifactWriter::Create(config_.root, config_.max_artifact_bytes);
+  return ArtifactWriter::Create(NewPlace());
+}
+
+StatusOr<std::unique_ptr<ArtifactWriter>> ArtifactStore::ResumeWriter(const std::string& upload_id,
+                                                                      int64_t offset) {
+  POISE_RETURN_IF_ERROR(CheckUploadId(upload_id));
+  bool collect = false;
+  {
+    std::lock_guard lock(collection_mutex_);
+    collect = absl::Now() - last_collection_ > kCollectionInterval;
+  }
+  if (collect) CollectUploads(absl::Now());
+  return ArtifactWriter::Resume(NewPlace(), config_.root / "uploads" / upload_id,
+                                uploads_.Claim(upload_id), offset);
+}
+
+StatusOr<int64_t> ArtifactStore::ReceivedBytes(const std::string& upload_id) const {
+  POISE_RETURN_IF_ERROR(CheckUploadId(upload_id));
+  struct stat info {};
+  const fs::path file = config_.root / "uploads" / upload_id;
+  return stat(file.c_str(), &info) == 0 ? info.st_size : 0;
 }
 
 StatusOr<ArtifactInfo> ArtifactStore::Put(std::string_view bytes) {
@@ -90,6 +116,18 @@ StatusOr<ArtifactInfo> ArtifactStore::Put(std::string_view bytes) {
 StatusOr<ArtifactInfo> ArtifactStore::Get(std::string_view name) const {
   POISE_ASSIGN_OR_RETURN(const File file, File::Open(config_.root, name));
   return ArtifactInfo{std::string(name), file.size()};
+}
+
+StatusOr<ArtifactInfo> ArtifactStore::Refresh(std::string_view name) {
+  std::lock_guard lock(names_);
+  POISE_ASSIGN_OR_RETURN(ArtifactInfo info, Get(name));
+  POISE_ASSIGN_OR_RETURN(const std::string digest, DigestOf(name));
+  const fs::path path = config_.root / digest.substr(0, 2) / digest;
+  if (utimensat(AT_FDCWD, path.c_str(), nullptr, 0) != 0) {
+    return base::MakeError(absl::StatusCode::kUnavailable, "CANNOT_STORE", "name",
+                           fmt::format("cannot touch {}: {}", name, std::strerror(errno)));
+  }
+  return info;
 }
 
 StatusOr<std::string> ArtifactStore::Read(std::string_view name, int64_t offset,

@@ -22,6 +22,7 @@ struct MethodPolicy {
 struct MethodPolicies {
   MethodPolicy augment{.default_deadline = absl::Hours(1), .max_deadline = absl::Hours(24)};
   MethodPolicy upload{.default_deadline = absl::Minutes(10), .max_deadline = absl::Hours(1)};
+  MethodPolicy get_upload{.default_deadline = absl::Minutes(1), .max_deadline = absl::Minutes(10)};
   MethodPolicy download{.default_deadline = absl::Minutes(10), .max_deadline = absl::Hours(1)};
   /// Calls of JobService and Operations that answer at once.
   MethodPolicy job{.default_deadline = absl::Seconds(30), .max_deadline = absl::Minutes(5)};

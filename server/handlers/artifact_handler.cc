@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "core/artifacts/artifact_name.h"
+#include "proto/convert/status_convert.h"
+#include "server/handlers/guard.h"
 #include "server/handlers/message_stream.h"
 #include "server/handlers/refusal.h"
 #include "server/handlers/upload_stream.h"
@@ -54,6 +57,43 @@ grpc::ServerReadReactor<grpc::ByteBuffer>* ArtifactHandler::Upload(
   if (!call.ok()) return new Refusal<grpc::ServerReadReactor<grpc::ByteBuffer>>(call.status());
   return UploadStream::Start(
       std::make_shared<UploadStream>(context, *std::move(call), response, store_, files_));
+}
+
+grpc::ServerUnaryReactor* ArtifactHandler::GetUpload(grpc::CallbackServerContext* context,
+                                                     const grpc::ByteBuffer* request,
+                                                     grpc::ByteBuffer* response) {
+  grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
+  StatusOr<std::unique_ptr<Call>> call = admission_.Admit(*context, policies_.get_upload);
+  if (!call.ok()) {
+    reactor->Finish(convert::ToGrpc(call.status()));
+    return reactor;
+  }
+  files_.Submit([this, reactor, request, response, call = std::shared_ptr(*std::move(call))] {
+    const Status status = Guarded(*call, [&]() -> Status {
+      POISE_ASSIGN_OR_RETURN(const auto parsed, Parse<v1::GetUploadRequest>(*request));
+      POISE_ASSIGN_OR_RETURN(const v1::UnfinishedUpload upload, FindUpload(parsed));
+      *response = Serialize(upload);
+      return absl::OkStatus();
+    });
+    reactor->Finish(convert::ToGrpc(status));
+  });
+  return reactor;
+}
+
+StatusOr<v1::UnfinishedUpload> ArtifactHandler::FindUpload(const v1::GetUploadRequest& request) {
+  v1::UnfinishedUpload upload;
+  POISE_ASSIGN_OR_RETURN(const int64_t received, store_.ReceivedBytes(request.upload_id()));
+  upload.set_received_bytes(received);
+  if (request.sha256().empty()) return upload;
+  const StatusOr<artifacts::ArtifactInfo> stored =
+      store_.Refresh(artifacts::ArtifactName(request.sha256()));
+  if (stored.ok()) {
+    upload.mutable_artifact()->set_name(stored->name);
+    upload.mutable_artifact()->set_size_bytes(stored->size_bytes);
+  } else if (stored.status().code() != absl::StatusCode::kNotFound) {
+    return stored.status();
+  }
+  return upload;
 }
 
 grpc::ServerWriteReactor<grpc::ByteBuffer>* ArtifactHandler::Download(

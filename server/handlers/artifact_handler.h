@@ -13,7 +13,8 @@ namespace poise::server {
 /// slow disk holds up neither gRPC nor the computing.
 class ArtifactHandler
     : public v1::ArtifactService::WithRawCallbackMethod_Upload<
-          v1::ArtifactService::WithRawCallbackMethod_Download<v1::ArtifactService::Service>> {
+          v1::ArtifactService::WithRawCallbackMethod_GetUpload<
+              v1::ArtifactService::WithRawCallbackMethod_Download<v1::ArtifactService::Service>>> {
  public:
   /// The largest chunk of an upload, and the size of a download's.
   static constexpr int64_t kChunkBytes = 1 << 20;
@@ -23,10 +24,15 @@ class ArtifactHandler
 
   grpc::ServerReadReactor<grpc::ByteBuffer>* Upload(grpc::CallbackServerContext* context,
                                                     grpc::ByteBuffer* response) override;
+  grpc::ServerUnaryReactor* GetUpload(grpc::CallbackServerContext* context,
+                                      const grpc::ByteBuffer* request,
+                                      grpc::ByteBuffer* response) override;
   grpc::ServerWriteReactor<grpc::ByteBuffer>* Download(grpc::CallbackServerContext* context,
                                                        const grpc::ByteBuffer* request) override;
 
  private:
+  StatusOr<v1::UnfinishedUpload> FindUpload(const v1::GetUploadRequest& request);
+
   artifacts::ArtifactStore& store_;
   Admission& admission_;
   const MethodPolicies policies_;

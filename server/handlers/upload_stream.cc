@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "poise/v1/artifact.pb.h"
 #include "proto/convert/status_convert.h"
 #include "server/handlers/artifact_handler.h"
 #include "server/handlers/guard.h"
@@ -54,10 +53,21 @@ Status UploadStream::StoreChunk() {
                                              request.chunk().size(), ArtifactHandler::kChunkBytes));
   }
   if (!request.sha256().empty()) expected_sha256_ = request.sha256();
-  if (writer_ == nullptr) {
+  if (writer_ == nullptr) POISE_RETURN_IF_ERROR(Open(request));
+  return writer_->Append(request.chunk());
+}
+
+Status UploadStream::Open(const v1::UploadRequest& first) {
+  resumable_ = !first.upload_id().empty();
+  if (resumable_) {
+    POISE_ASSIGN_OR_RETURN(writer_, store_.ResumeWriter(first.upload_id(), first.offset()));
+  } else if (first.offset() != 0) {
+    return base::InvalidArgument("BAD_UPLOAD_ID", "upload_id",
+                                 "an upload can only go on behind an offset when it has an id");
+  } else {
     POISE_ASSIGN_OR_RETURN(writer_, store_.NewWriter());
   }
-  return writer_->Append(request.chunk());
+  return absl::OkStatus();
 }
 
 Status UploadStream::Commit() {
@@ -67,6 +77,10 @@ Status UploadStream::Commit() {
   if (writer_ == nullptr) {
     return base::InvalidArgument("EMPTY_UPLOAD", "chunk",
                                  "the upload ended before its first chunk");
+  }
+  if (resumable_ && expected_sha256_.empty()) {
+    return base::InvalidArgument("MISSING_DIGEST", "sha256",
+                                 "the upload ended without the digest of the whole file");
   }
   POISE_ASSIGN_OR_RETURN(const artifacts::ArtifactInfo info, writer_->Commit(expected_sha256_));
   v1::Artifact artifact;

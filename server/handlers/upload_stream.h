@@ -12,13 +12,15 @@
 
 #include "core/artifacts/artifact_store.h"
 #include "core/base/thread_pool.h"
+#include "poise/v1/artifact.pb.h"
 #include "server/admission/admission.h"
 
 namespace poise::server {
 
 /// A client stream of chunks that become an artifact. The next chunk is asked for when the last one
-/// is in the file, so an upload takes one chunk of memory.
-/// Lifetime: as MessageStream.
+/// is in the file, so an upload takes one chunk of memory, and a client that has handed over a
+/// chunk knows that the one before it is stored. With an upload id the stream goes on where an
+/// earlier one broke off. Lifetime: as MessageStream.
 class UploadStream : public grpc::ServerReadReactor<grpc::ByteBuffer>,
                      public std::enable_shared_from_this<UploadStream> {
  public:
@@ -34,6 +36,7 @@ class UploadStream : public grpc::ServerReadReactor<grpc::ByteBuffer>,
   void OnDone() override;
 
   Status StoreChunk();
+  Status Open(const v1::UploadRequest& first);
   Status Commit();
   void End(const Status& status);
   void Expire();
@@ -49,6 +52,7 @@ class UploadStream : public grpc::ServerReadReactor<grpc::ByteBuffer>,
   // One callback at a time uses these: a read, or the task that follows it.
   grpc::ByteBuffer chunk_;
   std::unique_ptr<artifacts::ArtifactWriter> writer_;
+  bool resumable_ = false;
   std::string expected_sha256_;
 
   std::mutex mutex_;

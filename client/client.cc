@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "client/artifact_transfer.h"
 #include "client/connection.h"
 #include "client/transport_error.h"
 #include "client/variant_call.h"
@@ -14,9 +15,6 @@
 
 namespace poise::client {
 namespace {
-
-constexpr size_t kChunkBytes = size_t{1} << 20;
-constexpr char kNamePrefix[] = "artifacts/";
 
 // About how many bytes a source takes in a request.
 size_t WireBytes(const api::ClipSource& source) {
@@ -108,45 +106,30 @@ Status Client::UploadLargeSources(api::AugmentSpec& spec) {
 }
 
 StatusOr<StoredArtifact> Client::Upload(std::string_view data) {
-  const std::string digest = base::Sha256Hex(data);
-  const auto context = connection_->NewCall();
-  v1::Artifact artifact;
-  const auto writer = connection_->artifact().Upload(context.get(), &artifact);
-  bool open = true;  // a server that refuses closes the stream early; Finish says why
-  for (size_t offset = 0; open && offset < data.size(); offset += kChunkBytes) {
-    v1::UploadRequest request;
-    request.set_chunk(std::string(data.substr(offset, kChunkBytes)));
-    open = writer->Write(request);
-  }
-  if (open) {
-    v1::UploadRequest last;
-    last.set_sha256(digest);
-    writer->Write(last);
-    writer->WritesDone();
-  }
-  POISE_RETURN_IF_ERROR(ExplainCall(writer->Finish(), connection_->options()));
-  if (artifact.name() != kNamePrefix + digest) {
-    return base::Internal("CORRUPTED", fmt::format("sent a file with SHA-256 {}, stored was '{}'",
-                                                   digest, artifact.name()));
-  }
-  return StoredArtifact{.name = artifact.name(), .size_bytes = artifact.size_bytes()};
+  return client::Upload(*connection_, MemorySource(data));
+}
+
+StatusOr<StoredArtifact> Client::UploadFile(const std::filesystem::path& path) {
+  POISE_ASSIGN_OR_RETURN(const UploadSource source, FileSource(path));
+  return client::Upload(*connection_, source);
 }
 
 StatusOr<std::string> Client::Download(const std::string& name, int64_t offset) {
-  const auto context = connection_->NewCall();
-  v1::DownloadRequest request;
-  request.set_name(name);
-  request.set_offset(offset);
-  const auto reader = connection_->artifact().Download(context.get(), request);
   std::string data;
-  v1::DownloadResponse response;
-  while (reader->Read(&response)) data += response.chunk();
-  POISE_RETURN_IF_ERROR(ExplainCall(reader->Finish(), connection_->options()));
-  if (offset == 0 && kNamePrefix + base::Sha256Hex(data) != name) {
+  POISE_RETURN_IF_ERROR(
+      client::Download(*connection_, name, offset, [&data](std::string_view bytes) {
+        data += bytes;
+        return absl::OkStatus();
+      }));
+  if (offset == 0 && !IsNamed(name, base::Sha256Hex(data))) {
     return base::Internal("CORRUPTED",
                           fmt::format("what came for '{}' does not hash to its name", name));
   }
   return data;
+}
+
+Status Client::DownloadFile(const std::string& name, const std::filesystem::path& path) {
+  return DownloadToFile(*connection_, name, path);
 }
 
 }  // namespace poise::client

@@ -2,22 +2,36 @@
 #define POISE_CLIENT_CLIENT_H_
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "client/client_options.h"
+#include "client/job_handle.h"
+#include "client/job_watch.h"
+#include "client/stored_artifact.h"
 #include "client/variant_stream.h"
 #include "core/api/augment_spec.h"
+#include "core/api/job.h"
 #include "core/base/status.h"
 
 namespace poise::client {
 
 class Connection;
 
-/// A file that the server keeps.
-struct StoredArtifact {
-  std::string name;  ///< "artifacts/<sha256>"
+/// What the server's doctor found about its store of jobs.
+struct Finding {
+  enum class Severity { kOk, kWarning, kFault };
+  Severity severity = Severity::kFault;
+  std::string check;  ///< "integrity", "counts", ...
+  std::string message;
+};
+
+/// A copy of the store of jobs, on the server's machine.
+struct StoreBackup {
+  std::string path;
   int64_t size_bytes = 0;
 };
 
@@ -48,13 +62,37 @@ class Client {
   /// Errors: those of AugmentSpec::Validate here, the others from the stream.
   StatusOr<std::unique_ptr<VariantStream>> Augment(api::AugmentSpec spec);
 
-  /// Stores a file on the server; the same bytes get the same name.
-  /// Errors: kInternal CORRUPTED when the server stored something else.
+  /// Stores a file on the server; the same bytes get the same name. Goes on by itself when the
+  /// connection breaks. Errors: kInternal CORRUPTED when the server stored something else; those of
+  /// artifact_transfer.h.
   StatusOr<StoredArtifact> Upload(std::string_view data);
+  StatusOr<StoredArtifact> UploadFile(const std::filesystem::path& path);
 
   /// The bytes of an artifact from byte `offset` on. Errors: kNotFound; kInternal CORRUPTED when a
   /// whole file does not hash to its name.
   StatusOr<std::string> Download(const std::string& name, int64_t offset = 0);
+  /// Errors: those of DownloadToFile in artifact_transfer.h.
+  Status DownloadFile(const std::string& name, const std::filesystem::path& path);
+
+  /// Long work; JobService in job_service.proto says what the server does, and its errors. An id is
+  /// what follows "jobs/". A request without an id of its own gets one, so that a call whose answer
+  /// was lost can be repeated: a server that is gone for less than ClientOptions::outage is waited
+  /// for.
+  StatusOr<api::Job> CreateJob(api::CreateJob request);
+  StatusOr<api::Job> GetJob(const std::string& id);
+  /// `page_size` 0: the server's choice. Attempts are left out.
+  StatusOr<api::JobPage> ListJobs(const api::JobFilter& filter = {}, int page_size = 0,
+                                  const std::string& page_token = "");
+  StatusOr<api::Job> CancelJob(const std::string& id);
+  Status DeleteJob(const std::string& id);
+  StatusOr<api::Job> RetryJob(const std::string& id, std::string request_id = "");
+  std::unique_ptr<JobWatch> WatchJob(const std::string& id, const WatchOptions& options = {});
+  /// All that can be done with one job.
+  JobHandle Handle(const std::string& id);
+
+  /// For operators. `path` lies below the server's data folder and must not exist.
+  StatusOr<std::vector<Finding>> Doctor();
+  StatusOr<StoreBackup> BackUp(const std::string& path);
 
   /// Whether the server takes calls; one that drains says kNotServing.
   StatusOr<ServerHealth> Health();

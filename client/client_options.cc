@@ -16,6 +16,7 @@ ClientOptions ClientOptions::FromEnvironment() {
   ClientOptions options;
   TakeFromEnvironment("POISE_SERVER", options.server);
   TakeFromEnvironment("POISE_TOKEN", options.token);
+  TakeFromEnvironment("POISE_TENANT", options.tenant);
   return options;
 }
 

@@ -1,29 +1,14 @@
 #include "client/connection.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "absl/time/clock.h"
+#include "client/channel.h"
 #include "client/transport_error.h"
 
 namespace poise::client {
-namespace {
-
-constexpr int kMaxMessageBytes = 64 << 20;  // the server's limit too
-// Above the shortest ping interval that the server allows (20 s), with room for jitter.
-constexpr int kKeepaliveMs = 60'000;
-
-std::shared_ptr<grpc::Channel> MakeChannel(const ClientOptions& options) {
-  grpc::ChannelArguments arguments;
-  arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
-  arguments.SetMaxSendMessageSize(kMaxMessageBytes);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
-  // A proxy for the web (http_proxy) cannot reach this machine's own ports.
-  if (IsLoopback(options.server)) arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
-  return grpc::CreateCustomChannel(options.server, grpc::InsecureChannelCredentials(), arguments);
-}
-
-}  // namespace
-
 Connection::Connection(ClientOptions options)
     : options_(std::move(options)),
       channel_(MakeChannel(options_)),
@@ -39,11 +24,22 @@ std::unique_ptr<grpc::ClientContext> Connection::NewCall(absl::Duration timeout)
   if (!options_.token.empty()) {
     context->AddMetadata("authorization", "Bearer " + options_.token);
   }
+  if (!options_.tenant.empty()) context->AddMetadata("x-poise-tenant", options_.tenant);
   timeout = std::min(timeout, options_.timeout);
   if (timeout < absl::InfiniteDuration()) {
     context->set_deadline(absl::ToChronoTime(absl::Now() + timeout));
   }
   return context;
+}
+
+Status Connection::Explain(const grpc::Status& status) const {
+  const bool waited_in_vain = status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED &&
+                              options_.timeout >= options_.outage &&
+                              channel_->GetState(false) != GRPC_CHANNEL_READY;
+  if (!waited_in_vain) return ExplainCall(status, options_);
+  return base::MakeError(absl::StatusCode::kUnavailable, "NO_SERVER", "server",
+                         fmt::format("the server at {} went away and did not come back within {}",
+                                     options_.server, absl::FormatDuration(options_.outage)));
 }
 
 }  // namespace poise::client

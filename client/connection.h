@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "client/client_options.h"
+#include "core/base/status.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "grpcpp/grpcpp.h"
 #include "poise/v1/admin_service.grpc.pb.h"
@@ -23,6 +24,9 @@ class Connection {
   /// The metadata and the deadline of one call; at most `timeout` and the option of that name.
   std::unique_ptr<grpc::ClientContext> NewCall(
       absl::Duration timeout = absl::InfiniteDuration()) const;
+
+  /// As ExplainCall; also tells a call that waited for its server in vain: kUnavailable NO_SERVER.
+  Status Explain(const grpc::Status& status) const;
 
   const ClientOptions& options() const { return options_; }
   v1::AugmentationService::Stub& augmentation() const { return *augmentation_; }

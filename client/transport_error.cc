@@ -20,7 +20,8 @@ Status ExplainUnavailable(const std::string& message, const std::string& server)
                     "POISE_SERVER)",
                     server));
   }
-  if (Contains(message, "failed to connect") || Contains(message, "onnection refused")) {
+  if (Contains(message, "failed to connect") || Contains(message, "onnection refused") ||
+      Contains(message, "connections to all backends failing")) {
     const std::string start =
         IsLoopback(server)
             ? fmt::format("start one: poised --listen {} --data-dir ~/.poise", server)

@@ -130,7 +130,7 @@ struct Job {
 struct JobEvent {
   int64_t seq = 0;     ///< grows; thinned progress leaves gaps
   int64_t change = 0;  ///< counts states and checkpoints without gaps; of progress: the last one's
-  absl::Time time;
+  absl::Time time = {};
   int attempt = 0;
   std::optional<JobState> state = {};
   std::optional<base::Progress> progress = {};
@@ -146,12 +146,12 @@ struct CreateJob {
   static constexpr int kMaxLabels = 64;
 
   JobSpec spec;
-  std::string request_id;
+  std::string request_id = {};
   std::string queue = "default";
   int priority = 0;
   uint64_t seed = 0;
-  std::map<std::string, std::string> labels;
-  JobLimits limits;
+  std::map<std::string, std::string> labels = {};
+  JobLimits limits = {};
 
   /// Errors: kInvalidArgument BAD_REQUEST_ID, BAD_QUEUE, BAD_PRIORITY (outside -10 to 10),
   /// TOO_MANY_LABELS, BAD_LABEL, TOO_LARGE, BAD_LIMIT.

@@ -65,6 +65,11 @@ class MemoryArtifacts : public v1::ArtifactService::Service {
     return grpc::Status::OK;
   }
 
+  grpc::Status GetUpload(grpc::ServerContext*, const v1::GetUploadRequest*,
+                         v1::UnfinishedUpload*) override {
+    return grpc::Status::OK;
+  }
+
   grpc::Status Download(grpc::ServerContext*, const v1::DownloadRequest* request,
                         grpc::ServerWriter<v1::DownloadResponse>* writer) override {
     for (size_t i = request->offset(); i < data.size(); i += 2) {

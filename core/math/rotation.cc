@@ -165,10 +165,4 @@ Quat TwistAbout(const Quat& rotation, const Vec3& axis) {
   return twist;
 }
 
-Quat Slerp(const Quat& a, const Quat& b, double u) {
-  if (u <= 0) return a;
-  if (u >= 1) return b;
-  return a.slerp(u, b);
-}
-
 }  // namespace poise::math

@@ -70,9 +70,6 @@ Quat SwingBetween(const Vec3& from, const Vec3& to);
 /// The part of `rotation` that turns about `axis` (unit): rotation = swing * twist.
 Quat TwistAbout(const Quat& rotation, const Vec3& axis);
 
-/// Shortest-path spherical interpolation; u = 0 gives a and u = 1 gives b, exactly.
-Quat Slerp(const Quat& a, const Quat& b, double u);
-
 }  // namespace poise::math
 
 #endif  // POISE_CORE_MATH_ROTATION_H_

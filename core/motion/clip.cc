@@ -8,6 +8,7 @@ namespace poise::motion {
 namespace {
 
 constexpr double kUnitLengthTolerance = 1e-2;
+constexpr double kExactSquaredLength = 2e-12;  // within which a squared length is 1 to rounding
 
 }  // namespace
 
@@ -40,10 +41,11 @@ StatusOr<Clip> Clip::Create(std::string name, SkeletonPtr skeleton, double frame
     }
     for (size_t joint = 0; joint < joints; ++joint) {
       Quat& rotation = rotations[frame * joints + joint];
+      // An exact unit quaternion stays bit for bit what it was.
+      if (std::abs(rotation.squaredNorm() - 1) <= kExactSquaredLength) continue;
       const double length = rotation.norm();
       if (std::abs(length - 1) <= kUnitLengthTolerance) {
-        // An exact unit quaternion stays bit for bit what it was.
-        if (std::abs(length - 1) > 1e-12) rotation.coeffs() /= length;
+        rotation.coeffs() /= length;
         continue;
       }
       const std::string where = fmt::format("{}: frame {}, joint '{}'", what, frame,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/slerp.h"
+
 namespace poise::motion {
 namespace {
 
@@ -34,7 +36,8 @@ StatusOr<Clip> Spread(const Clip& clip, int num_frames, double frame_rate) {
                        : Vec3((1 - u) * clip.root_position(before) + u * clip.root_position(after));
     const auto a = clip.pose(before), b = clip.pose(after);
     Quat* out = rotations.data() + i * joints;
-    for (int joint = 0; joint < joints; ++joint) out[joint] = math::Slerp(a[joint], b[joint], u);
+    const math::SlerpAt slerp(u);
+    for (int joint = 0; joint < joints; ++joint) out[joint] = slerp(a[joint], b[joint]);
   }
   return Clip::Create(clip.name(), clip.skeleton(), frame_rate, std::move(positions),
                       std::move(rotations));

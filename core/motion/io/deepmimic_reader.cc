@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/base/json.h"
+#include "core/math/slerp.h"
 #include "core/motion/io/convention_detection.h"
 
 namespace poise::motion {
@@ -233,9 +234,10 @@ class DeepMimicReader {
           std::clamp((time - times[before]) / (times[before + 1] - times[before]), 0.0, 1.0);
       positions.push_back((1 - u) * clip_.root_positions[before] +
                           u * clip_.root_positions[before + 1]);
+      const math::SlerpAt slerp(u);
       for (size_t joint = 0; joint < joints; ++joint) {
         const Quat* from = &clip_.rotations[before * joints + joint];
-        rotations.push_back(math::Slerp(from[0], from[joints], u));
+        rotations.push_back(slerp(from[0], from[joints]));
       }
     }
     clip_.root_positions = std::move(positions);

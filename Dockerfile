@@ -26,7 +26,7 @@ FROM tools AS build
 COPY . .
 RUN --mount=type=cache,target=/root/.cache/ccache \
     scripts/install --build \
-    && scripts/build release --target poised --target poise \
+    && scripts/build release --target poise_programs \
        -DPOISE_BUILD_TESTS=OFF -DPOISE_BUILD_BENCH=OFF \
     && cmake --install build/release --strip --prefix /image/usr/local
 
@@ -46,7 +46,7 @@ RUN apt-get update -q \
     && rm -rf /var/lib/apt/lists/* /var/cache/apt/* /var/log/* \
     && install -d -o 65532 -g 65532 /var/lib/poise
 COPY --from=build /image /
-RUN ldd /usr/local/bin/poised /usr/local/bin/poise | (! grep "not found")
+RUN ldd /usr/local/bin/* | (! grep "not found")
 USER 65532:65532
 VOLUME /var/lib/poise
 EXPOSE 50051 9464

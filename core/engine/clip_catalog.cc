@@ -45,6 +45,7 @@ StatusOr<CatalogClip> ClipCatalog::Resolve(api::ClipSource source) const {
     return base::MakeError(data.status().code(), base::ErrorReason(data.status()),
                            "stored.artifact", base::Message(data.status()));
   }
+  artifacts_.Refresh(stored.artifact).IgnoreError();  // this call has what it needs
   return Decode(stored, *data, "stored.artifact", source.joint_roles);
 }
 

@@ -24,15 +24,16 @@ class ClipCatalog {
   /// Files above this are read piece by piece elsewhere, never into memory.
   static constexpr int64_t kMaxFileBytes = 512'000'000;
 
-  explicit ClipCatalog(const artifacts::ArtifactStore& artifacts) : artifacts_(artifacts) {}
+  explicit ClipCatalog(artifacts::ArtifactStore& artifacts) : artifacts_(artifacts) {}
 
-  /// Takes the source over: arrays are moved, not copied. Errors: those of DecodeClip,
+  /// Takes the source over: arrays are moved, not copied; a stored file that is used counts as
+  /// stored anew, so that it is not collected. Errors: those of DecodeClip,
   /// ArtifactStore::ReadAll and JointRoles::Detect, with the field below the source ("file.data",
   /// "stored.artifact", "joint_roles").
   StatusOr<CatalogClip> Resolve(api::ClipSource source) const;
 
  private:
-  const artifacts::ArtifactStore& artifacts_;
+  artifacts::ArtifactStore& artifacts_;
 };
 
 }  // namespace poise::engine

@@ -18,6 +18,11 @@ motion::SourceConvention FileConvention(CatalogClip& clip) {
   return motion::UsualBvhConvention();
 }
 
+EngineConfig WithDataDir(EngineConfig config) {
+  config.jobs.data_dir = config.data_dir;
+  return config;
+}
+
 }  // namespace
 
 StatusOr<std::unique_ptr<Engine>> Engine::Create(const EngineConfig& config,
@@ -35,7 +40,7 @@ StatusOr<std::unique_ptr<Engine>> Engine::Create(const EngineConfig& config,
 
 Engine::Engine(EngineConfig config, std::unique_ptr<artifacts::ArtifactStore> artifacts,
                std::unique_ptr<jobs::JobStore> store, base::Telemetry& telemetry)
-    : config_(std::move(config)),
+    : config_(WithDataDir(std::move(config))),
       artifacts_(std::move(artifacts)),
       jobs_(std::make_unique<JobManager>(config_.jobs, std::move(store), *artifacts_, telemetry)),
       sources_resolved_(telemetry.counter("poise_augment_sources_total",

@@ -17,7 +17,10 @@ JobMaintenance::JobMaintenance(JobLog& log)
     : log_(log), random_(static_cast<uint64_t>(absl::ToUnixNanos(absl::Now()))) {}
 
 void JobMaintenance::Start(std::vector<RepeatedTask> tasks) {
-  for (RepeatedTask& task : tasks) repeated_.push_back({std::move(task), absl::Now()});
+  for (RepeatedTask& task : tasks) {
+    const absl::Time first = absl::Now() + task.delay;
+    repeated_.push_back({std::move(task), first});
+  }
   thread_ = std::thread([this] { Loop(); });
 }
 

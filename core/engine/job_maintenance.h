@@ -21,6 +21,7 @@ struct RepeatedTask {
   std::string name;
   absl::Duration interval;  ///< [> 0] give or take a quarter, so that servers do not fall in step
   std::function<Status()> run;
+  absl::Duration delay = absl::ZeroDuration();  ///< before the first run
 };
 
 /// One thread that runs the repeated tasks, and what is to be done once at a certain time. A task

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "absl/time/clock.h"
 #include "core/base/fail_point.h"
 #include "core/base/sha256.h"
+#include "core/engine/backup_path.h"
 #include "core/engine/flow_table.h"
+#include "core/engine/job_diagnosis.h"
 #include "core/runtime/jobs/job_json.h"
 
 namespace poise::engine {
@@ -85,7 +88,7 @@ StatusOr<api::Job> JobManager::Create(const JobCaller& caller, const api::Create
   POISE_ASSIGN_OR_RETURN(const Flow* flow, FindFlow(request.spec.kind));
   POISE_RETURN_IF_ERROR(flow->validate(request.spec.parameters));
   POISE_RETURN_IF_ERROR(
-      CheckArtifacts(jobs::ArtifactNamesIn(request.spec.parameters), "spec.parameters"));
+      HoldArtifacts(jobs::ArtifactNamesIn(request.spec.parameters), "spec.parameters"));
   return Submit({.tenant = caller.tenant,
                  .request = request,
                  .content_digest = ContentDigest(request, ""),
@@ -104,6 +107,10 @@ StatusOr<api::Job> JobManager::Retry(const JobCaller& caller, const std::string&
   POISE_RETURN_IF_ERROR(request.Validate());
   POISE_ASSIGN_OR_RETURN(const Flow* flow, FindFlow(request.spec.kind));
   POISE_RETURN_IF_ERROR(flow->validate(request.spec.parameters));
+  // That job may be deleted meanwhile.
+  std::vector<std::string> artifacts = jobs::ArtifactNamesIn(request.spec.parameters);
+  if (job.checkpoint) artifacts.push_back(job.checkpoint->artifact);
+  POISE_RETURN_IF_ERROR(HoldArtifacts(artifacts, "name"));
   return Submit({.tenant = caller.tenant,
                  .request = request,
                  .content_digest = ContentDigest(request, id),
@@ -185,14 +192,14 @@ StatusOr<jobs::HeartbeatReply> JobManager::Heartbeat(
 
 Status JobManager::CommitCheckpoint(const jobs::Fence& fence, const std::string& artifact,
                                     int64_t step) {
-  POISE_RETURN_IF_ERROR(CheckArtifacts({artifact}, "artifact"));
+  POISE_RETURN_IF_ERROR(HoldArtifacts({artifact}, "artifact"));
   return store_->CommitCheckpoint(fence, artifact, step);
 }
 
 StatusOr<api::JobState> JobManager::Finish(const jobs::Fence& fence, const jobs::Outcome& outcome) {
   std::vector<std::string> names;
   for (const api::JobArtifact& artifact : outcome.artifacts) names.push_back(artifact.artifact);
-  POISE_RETURN_IF_ERROR(CheckArtifacts(names, "artifacts"));
+  POISE_RETURN_IF_ERROR(HoldArtifacts(names, "artifacts"));
   return store_->Finish(fence, outcome);
 }
 
@@ -202,6 +209,16 @@ Status JobManager::Release(const jobs::Fence& fence, const api::JobUsage& usage)
 
 StatusOr<int64_t> JobManager::ExpireWorker(const std::string& worker) {
   return store_->ExpireWorker(worker);
+}
+
+StatusOr<std::vector<jobs::Finding>> JobManager::Diagnose(const base::RunContext& context) {
+  return DiagnoseJobs(*store_, artifacts_, context);
+}
+
+StatusOr<std::filesystem::path> JobManager::BackUp(const std::string& path) {
+  POISE_ASSIGN_OR_RETURN(std::filesystem::path full, BackUpPath(config_.data_dir, path));
+  POISE_RETURN_IF_ERROR(store_->BackUp(full));
+  return full;
 }
 
 Status JobManager::ShowStats() {
@@ -229,10 +246,9 @@ void JobManager::OnTransition(const jobs::Transition& transition) {
   }
 }
 
-Status JobManager::CheckArtifacts(const std::vector<std::string>& names,
-                                  const std::string& field) const {
+Status JobManager::HoldArtifacts(const std::vector<std::string>& names, const std::string& field) {
   for (const std::string& name : names) {
-    const Status status = artifacts_.Get(name).status();
+    const Status status = artifacts_.Refresh(name).status();
     if (!status.ok()) {
       return base::MakeError(status.code(), base::ErrorReason(status), field,
                              base::Message(status));
@@ -241,11 +257,22 @@ Status JobManager::CheckArtifacts(const std::vector<std::string>& names,
   return absl::OkStatus();
 }
 
+Status JobManager::CollectArtifacts() {
+  // Before the look at the jobs: what is named after it was refreshed after this, too.
+  const absl::Time limit = absl::Now() - config_.artifact_retention;
+  POISE_ASSIGN_OR_RETURN(const std::vector<std::string> names, store_->ReferencedArtifacts());
+  artifacts_.Collect({names.begin(), names.end()}, limit);
+  artifacts_.CollectUploads(absl::Now());
+  return absl::OkStatus();
+}
+
 std::vector<RepeatedTask> JobManager::Tasks() {
-  return {{"reap", config_.reap_interval,
+  // While no server was there, no worker could be heard of: they get the time to come back.
+  const absl::Duration comeback = config_.policy.heartbeat_interval;
+  return {{"reap", config_.reap_interval, [this] { return store_->Reap().status(); }, comeback},
+          {"wake", config_.reap_interval,
            [this] {
-             POISE_RETURN_IF_ERROR(store_->Reap().status());
-             // Finds what no transition told of: retries that were due before this process began.
+             // Finds what no transition tells of: retries that an earlier process was told of.
              lease_waiters_.AnyJobReady();
              return absl::OkStatus();
            }},
@@ -255,6 +282,7 @@ std::vector<RepeatedTask> JobManager::Tasks() {
              counters_.CountDeleted(jobs);
              return absl::OkStatus();
            }},
+          {"collect artifacts", config_.artifact_interval, [this] { return CollectArtifacts(); }},
           {"stats", config_.gauge_interval, [this] { return ShowStats(); }}};
 }
 

@@ -20,11 +20,16 @@
 namespace poise::engine {
 
 struct JobManagerConfig {
+  std::filesystem::path data_dir;  ///< backups go below it; Engine fills it in
   jobs::JobPolicy policy;
   absl::Duration reap_interval = absl::Seconds(2);     ///< [> 0] between looks for lost workers
   absl::Duration gauge_interval = absl::Seconds(2);    ///< [> 0] between counts for the metrics
   absl::Duration collect_interval = absl::Minutes(1);  ///< [> 0] between removals of expired jobs
-  JobLog* log = &JobLog::None();                       ///< outlives the manager
+  absl::Duration artifact_interval = absl::Hours(1);   ///< [> 0] between removals of artifacts
+  /// An artifact that no job names stays this long after it was last stored or named: an upload is
+  /// there before the job that needs it.
+  absl::Duration artifact_retention = absl::Hours(24);
+  JobLog* log = &JobLog::None();  ///< outlives the manager
 
   /// Errors: kInvalidArgument BAD_JOB_POLICY with the field.
   Status Validate() const;
@@ -87,6 +92,11 @@ class JobManager {
   // What operators ask for.
 
   StatusOr<jobs::StoreStats> Stats() { return store_->Stats(); }
+  /// Errors: those of DiagnoseJobs. A fault is a finding, not an error.
+  StatusOr<std::vector<jobs::Finding>> Diagnose(const base::RunContext& context);
+  /// Copies the store, while it is in use, to a new file below the data folder. Returns its
+  /// absolute path. Errors: those of BackUpPath and JobStore::BackUp.
+  StatusOr<std::filesystem::path> BackUp(const std::string& path);
   /// Brings the gauges up to date now.
   Status ShowStats();
 
@@ -100,7 +110,9 @@ class JobManager {
  private:
   void OnTransition(const jobs::Transition& transition);
   StatusOr<api::Job> Submit(const jobs::NewJob& job);
-  Status CheckArtifacts(const std::vector<std::string>& names, const std::string& field) const;
+  Status CollectArtifacts();
+  // That they are there, and stay until the job that is about to name them does.
+  Status HoldArtifacts(const std::vector<std::string>& names, const std::string& field);
   std::vector<RepeatedTask> Tasks();
 
   const JobManagerConfig config_;

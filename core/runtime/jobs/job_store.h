@@ -114,7 +114,7 @@ struct Transition {
   std::optional<api::JobState> from;  ///< nullopt: created
   api::JobState to{};
   std::optional<api::JobError> error;
-  absl::Duration in_state;  ///< how long it was in `from`
+  absl::Duration in_state;                                ///< how long it was in `from`
   absl::Time next_attempt_time = absl::InfiniteFuture();  ///< with kQueued, when it has to wait
 };
 

@@ -15,8 +15,8 @@
 #include "core/base/json.h"
 #include "core/base/memory_policy.h"
 #include "core/base/version.h"
+#include "core/engine/compute_check.h"
 #include "core/engine/engine.h"
-#include "core/learning/nn/blas_probe.h"
 #include "server/job_log_lines.h"
 #include "server/log.h"
 #include "server/poised_options.h"
@@ -100,9 +100,10 @@ Status Serve(PoisedOptions options) {
                          TakeOver(options, telemetry));
   if (engine == nullptr) return absl::OkStatus();
   if (!options.metrics.empty()) POISE_RETURN_IF_ERROR(telemetry.Expose(options.metrics));
-  const double gflops = learning::MeasureSgemmGflops();
+  const engine::ComputeCheck compute = engine::CheckCompute();
+  const double gflops = compute.sgemm_gflops_per_core;
   telemetry.gauge("poise_sgemm_gflops_per_core", "Matrix product rate at start", {}).Set(gflops);
-  if (gflops < learning::kFaultySgemmGflops) {
+  if (compute.slow) {
     Log(level::warn, "slow_blas",
         {{"sgemm_gflops_per_core", gflops},
          {"message", "install OpenBLAS: LibTorch runs on a slow BLAS here"}});

@@ -67,8 +67,11 @@ Server::Server(const ServerConfig& config, engine::Engine& engine, base::Telemet
       store_calls_(config.store_threads),
       augmentation_(engine, admission_, config.methods.augment, telemetry),
       artifacts_(engine.artifacts(), admission_, config.methods),
-      jobs_(engine.jobs(), engine.artifacts(), store_calls_, admission_, config.methods, drain_),
-      workers_(engine.jobs(), store_calls_, admission_, config.methods.worker, drain_) {}
+      jobs_(engine.jobs(), engine.artifacts(), store_calls_, admission_, config.methods, drain_,
+            config.snapshot_interval),
+      operations_(engine.jobs(), store_calls_, admission_, config.methods, drain_),
+      workers_(engine.jobs(), store_calls_, admission_, config.methods.worker, drain_),
+      admin_(engine.jobs(), admission_, config.methods.admin) {}
 
 Server::~Server() {
   if (server_) Shutdown(absl::InfinitePast());
@@ -84,7 +87,9 @@ Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
   builder.RegisterService(&augmentation_);
   builder.RegisterService(&artifacts_);
   builder.RegisterService(&jobs_);
+  builder.RegisterService(&operations_);
   builder.RegisterService(&workers_);
+  builder.RegisterService(&admin_);
   builder.RegisterCallbackGenericService(&unknown_method_);
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
   interceptors.push_back(std::make_unique<RequestLogFactory>(telemetry));
@@ -101,7 +106,9 @@ Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
   address_ = fmt::format("{}:{}", config.listen.substr(0, config.listen.rfind(':')), port);
   for (const char* service :
        {v1::AugmentationService::service_full_name(), v1::ArtifactService::service_full_name(),
-        v1::JobService::service_full_name(), v1::WorkerService::service_full_name()}) {
+        v1::JobService::service_full_name(), v1::WorkerService::service_full_name(),
+        v1::AdminService::service_full_name(),
+        google::longrunning::Operations::service_full_name()}) {
     server_->GetHealthCheckService()->SetServingStatus(service, true);
   }
   return absl::OkStatus();

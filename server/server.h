@@ -11,10 +11,12 @@
 #include "core/base/telemetry.h"
 #include "core/engine/engine.h"
 #include "server/admission/admission.h"
+#include "server/handlers/admin_handler.h"
 #include "server/handlers/artifact_handler.h"
 #include "server/handlers/augmentation_handler.h"
 #include "server/handlers/drain_state.h"
 #include "server/handlers/job_handler.h"
+#include "server/handlers/operations_handler.h"
 #include "server/handlers/unknown_method_handler.h"
 #include "server/handlers/worker_handler.h"
 
@@ -28,6 +30,7 @@ struct ServerConfig {
   int64_t max_transport_bytes = 1LL << 30;  ///< [bytes] what gRPC's buffers may take together
   /// [> 0] Threads that wait for the job store: so many writes share one sync of the disk.
   int store_threads = 32;
+  absl::Duration snapshot_interval = absl::Seconds(15);  ///< [> 0] in watches of silent jobs
 };
 
 /// The services on one port, with health and reflection.
@@ -61,7 +64,9 @@ class Server {
   AugmentationHandler augmentation_;
   ArtifactHandler artifacts_;
   JobHandler jobs_;
+  OperationsHandler operations_;
   WorkerHandler workers_;
+  AdminHandler admin_;
   UnknownMethodHandler unknown_method_;
   std::unique_ptr<grpc::Server> server_;
   std::string address_;

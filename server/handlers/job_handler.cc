@@ -24,13 +24,14 @@ StatusOr<v1::Job> Message(const StatusOr<api::Job>& job) {
 
 JobHandler::JobHandler(engine::JobManager& jobs, artifacts::ArtifactStore& artifacts,
                        base::ThreadPool& pool, Admission& admission, const MethodPolicies& policies,
-                       const DrainState& drain)
+                       const DrainState& drain, absl::Duration snapshot_interval)
     : jobs_(jobs),
       artifacts_(artifacts),
       pool_(pool),
       admission_(admission),
       policies_(policies),
       drain_(drain),
+      snapshot_interval_(snapshot_interval),
       unary_(admission, pool) {}
 
 grpc::ServerUnaryReactor* JobHandler::CreateJob(grpc::CallbackServerContext* context,
@@ -85,8 +86,9 @@ grpc::ServerWriteReactor<grpc::ByteBuffer>* JobHandler::WatchJob(
     grpc::CallbackServerContext* context, const grpc::ByteBuffer* request) {
   StatusOr<std::unique_ptr<Call>> call = admission_.Admit(*context, policies_.watch);
   if (!call.ok()) return new Refusal<grpc::ServerWriteReactor<grpc::ByteBuffer>>(call.status());
-  return WatchStream::Start(
-      std::make_shared<WatchStream>(context, *std::move(call), *request, jobs_, pool_, drain_));
+  return WatchStream::Start(std::make_shared<WatchStream>(
+      WatchStream::Setup{context, *std::move(call), *request, &pool_, snapshot_interval_}, jobs_,
+      drain_));
 }
 
 grpc::ServerWriteReactor<grpc::ByteBuffer>* JobHandler::GetJobResult(

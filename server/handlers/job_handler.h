@@ -21,8 +21,10 @@ class JobHandler : public v1::JobService::WithRawCallbackMethod_CreateJob<
                                                v1::JobService::WithRawCallbackMethod_RetryJob<
                                                    v1::JobService::Service>>>>>>>> {
  public:
+  /// A watch shows the job anew after `snapshot_interval` in which nothing happened.
   JobHandler(engine::JobManager& jobs, artifacts::ArtifactStore& artifacts, base::ThreadPool& pool,
-             Admission& admission, const MethodPolicies& policies, const DrainState& drain);
+             Admission& admission, const MethodPolicies& policies, const DrainState& drain,
+             absl::Duration snapshot_interval);
 
   grpc::ServerUnaryReactor* CreateJob(grpc::CallbackServerContext* context,
                                       const grpc::ByteBuffer* request,
@@ -54,6 +56,7 @@ class JobHandler : public v1::JobService::WithRawCallbackMethod_CreateJob<
   Admission& admission_;
   const MethodPolicies policies_;
   const DrainState& drain_;
+  const absl::Duration snapshot_interval_;
   UnaryMethods unary_;
 };
 

@@ -23,15 +23,14 @@ Status JoinAgain(const char* reason, const char* why) {
 
 }  // namespace
 
-WatchStream::WatchStream(grpc::CallbackServerContext* context, std::unique_ptr<Call> call,
-                         grpc::ByteBuffer request, engine::JobManager& jobs, base::ThreadPool& pool,
-                         const DrainState& drain)
-    : context_(context),
-      call_(std::move(call)),
+WatchStream::WatchStream(Setup setup, engine::JobManager& jobs, const DrainState& drain)
+    : context_(setup.context),
+      call_(std::move(setup.call)),
+      snapshot_interval_(setup.snapshot_interval),
       jobs_(jobs),
-      pool_(pool),
+      pool_(*setup.pool),
       drain_(drain),
-      request_(std::move(request)) {}
+      request_(std::move(setup.request)) {}
 
 grpc::ServerWriteReactor<grpc::ByteBuffer>* WatchStream::Start(
     std::shared_ptr<WatchStream> stream) {
@@ -42,7 +41,7 @@ grpc::ServerWriteReactor<grpc::ByteBuffer>* WatchStream::Start(
                                  if (auto self = weak.lock(); self && expired) self->Expire();
                                });
   std::lock_guard lock(reactor->mutex_);
-  reactor->SetTick(absl::Now() + kSnapshotInterval);
+  reactor->SetTick(absl::Now() + reactor->snapshot_interval_);
   reactor->Advance();
   return reactor;
 }
@@ -67,8 +66,8 @@ void WatchStream::Tick() {
   std::lock_guard lock(mutex_);
   if (finished_) return;
   const absl::Time now = absl::Now();
-  const absl::Time due = last_write_ + kSnapshotInterval;
-  SetTick(due > now ? due : now + kSnapshotInterval);
+  const absl::Time due = last_write_ + snapshot_interval_;
+  SetTick(due > now ? due : now + snapshot_interval_);
   // With a write under way the client has something to read already.
   if (due > now || writing_) return;
   snapshot_due_ = news_ = true;

@@ -28,15 +28,19 @@ namespace poise::server {
 class WatchStream : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
                     public std::enable_shared_from_this<WatchStream> {
  public:
-  WatchStream(grpc::CallbackServerContext* context, std::unique_ptr<Call> call,
-              grpc::ByteBuffer request, engine::JobManager& jobs, base::ThreadPool& pool,
-              const DrainState& drain);
+  struct Setup {
+    grpc::CallbackServerContext* context;
+    std::unique_ptr<Call> call;
+    grpc::ByteBuffer request;
+    base::ThreadPool* pool;
+    absl::Duration snapshot_interval;  ///< [> 0] of a job to which nothing happens
+  };
+  WatchStream(Setup setup, engine::JobManager& jobs, const DrainState& drain);
 
   static grpc::ServerWriteReactor<grpc::ByteBuffer>* Start(std::shared_ptr<WatchStream> stream);
 
  private:
   static constexpr int kBatch = 16;  // events in memory
-  static constexpr absl::Duration kSnapshotInterval = absl::Seconds(15);
   // How long past its end a client may take to read the message under way.
   static constexpr absl::Duration kLastWrite = absl::Milliseconds(500);
 
@@ -70,6 +74,7 @@ class WatchStream : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
 
   grpc::CallbackServerContext* const context_;
   const std::unique_ptr<Call> call_;
+  const absl::Duration snapshot_interval_;
   engine::JobManager& jobs_;
   base::ThreadPool& pool_;
   const DrainState& drain_;

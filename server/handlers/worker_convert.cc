@@ -20,6 +20,7 @@ constexpr int kMaxNames = 64;
 constexpr int kMaxArtifacts = 10'000;
 constexpr size_t kMaxText = 1000;
 constexpr size_t kMaxMetrics = 64;
+constexpr int kMaxCode = static_cast<int>(absl::StatusCode::kUnauthenticated);
 
 Status CheckCount(int count, const char* field) {
   if (count <= kMaxNames) return absl::OkStatus();
@@ -120,6 +121,8 @@ StatusOr<jobs::Outcome> FromProto(const v1::FinishJobRequest& request) {
   if (request.has_error()) {
     outcome.error = convert::FromProto(request.error());
     outcome.error->message = outcome.error->message.substr(0, kMaxText);
+    const int code = request.error().code();
+    if (code <= 0 || code > kMaxCode) outcome.error->code = absl::StatusCode::kUnknown;
   }
   if (request.artifacts_size() > kMaxArtifacts) {
     return base::InvalidArgument(

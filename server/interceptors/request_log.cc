@@ -20,7 +20,8 @@ std::string CodeName(grpc::StatusCode code) {
 
 // A caller may invent method names; a counter for each would be a way to fill the memory.
 std::string CounterLabel(const std::string& method) {
-  const bool known = method.starts_with("/poise.") || method.starts_with("/grpc.");
+  const bool known = method.starts_with("/poise.") || method.starts_with("/grpc.") ||
+                     method.starts_with("/google.longrunning.");
   return known ? method : "unknown";
 }
 

@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kFrames = 361;
 constexpr double kFrameRate = 120;
-constexpr int kVariantsPerRound = 600;
+constexpr int kVariantsPerRound = 3000;
 constexpr int kRounds = 9;
 constexpr char kMethod[] = "ik+timewarp";
 

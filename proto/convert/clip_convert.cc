@@ -20,6 +20,12 @@ Status WrongShape(const v1::Clip& clip, const char* field, int64_t got,
       fmt::format("clip '{}': {} has {} numbers, expected {}", clip.name(), field, got, expected));
 }
 
+// Room for `count` more numbers, which the caller writes.
+float* Append(size_t count, google::protobuf::RepeatedField<float>& numbers) {
+  numbers.Reserve(numbers.size() + static_cast<int>(count));
+  return numbers.AddNAlreadyReserved(static_cast<int>(count));
+}
+
 // Fields that EncodedClip and StoredClip share.
 template <typename Message, typename Value>
 Status ReadFileFields(const Message& message, Value& value) {
@@ -84,13 +90,11 @@ v1::Clip ToProto(const motion::Clip& clip) {
   message.set_name(ValidUtf8(clip.name()));
   *message.mutable_skeleton() = ToProto(*clip.skeleton());
   message.set_frame_rate(clip.frame_rate());
-  message.mutable_root_positions()->Resize(3 * clip.num_frames(), 0);
-  float* position = message.mutable_root_positions()->mutable_data();
+  float* position = Append(3 * clip.root_positions().size(), *message.mutable_root_positions());
   for (const Vec3& value : clip.root_positions()) {
     for (int axis = 0; axis < 3; ++axis) *position++ = static_cast<float>(value[axis]);
   }
-  message.mutable_rotations()->Resize(4 * static_cast<int>(clip.rotations().size()), 0);
-  float* rotation = message.mutable_rotations()->mutable_data();
+  float* rotation = Append(4 * clip.rotations().size(), *message.mutable_rotations());
   for (const Quat& value : clip.rotations()) {
     *rotation++ = static_cast<float>(value.w());
     *rotation++ = static_cast<float>(value.x());

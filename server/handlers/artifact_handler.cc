@@ -101,7 +101,8 @@ grpc::ServerWriteReactor<grpc::ByteBuffer>* ArtifactHandler::Download(
   StatusOr<std::unique_ptr<Call>> call = admission_.Admit(*context, policies_.download);
   if (!call.ok()) return new Refusal<grpc::ServerWriteReactor<grpc::ByteBuffer>>(call.status());
   return MessageStream::Start(std::make_shared<DownloadStream>(
-      MessageStream::Setup{context, *std::move(call), &files_, kWindow}, *request, store_));
+      MessageStream::Setup{context, *std::move(call), &files_, &files_, kWindow}, *request,
+      store_));
 }
 
 }  // namespace poise::server

@@ -2,6 +2,7 @@
 #define POISE_SERVER_HANDLERS_AUGMENTATION_HANDLER_H_
 
 #include "core/base/telemetry.h"
+#include "core/base/thread_pool.h"
 #include "core/engine/engine.h"
 #include "poise/v1/augmentation_service.grpc.pb.h"
 #include "server/admission/admission.h"
@@ -23,6 +24,7 @@ class AugmentationHandler : public v1::AugmentationService::WithRawCallbackMetho
   engine::Engine& engine_;
   Admission& admission_;
   const MethodPolicy policy_;
+  base::ThreadPool writers_;  // sending would take a tenth of the compute threads' time
   base::Counter& variants_;
 };
 

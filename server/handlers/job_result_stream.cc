@@ -26,7 +26,8 @@ grpc::ServerWriteReactor<grpc::ByteBuffer>* JobResultStream::Start(
     const grpc::ByteBuffer& request, engine::JobManager& jobs, artifacts::ArtifactStore& artifacts,
     base::ThreadPool& pool) {
   return MessageStream::Start(std::make_shared<JobResultStream>(
-      MessageStream::Setup{context, std::move(call), &pool, kWindow}, request, jobs, artifacts));
+      MessageStream::Setup{context, std::move(call), &pool, &pool, kWindow}, request, jobs,
+      artifacts));
 }
 
 StatusOr<int64_t> JobResultStream::Prepare(const base::RunContext&) {

@@ -13,6 +13,7 @@ MessageStream::MessageStream(Setup setup)
     : context_(setup.context),
       call_(std::move(setup.call)),
       pool_(*setup.pool),
+      writers_(*setup.writers),
       window_(setup.window) {}
 
 grpc::ServerWriteReactor<grpc::ByteBuffer>* MessageStream::Start(
@@ -55,7 +56,12 @@ void MessageStream::RunMake(int64_t ordinal) {
   --tasks_;
   if (message.ok()) message_bytes_ = std::max(message_bytes_, message->Length());
   if (!stop_) ready_.emplace(ordinal, std::move(message));
-  Advance();
+  // Otherwise the end of the write under way goes on, or the message that is next.
+  if (!stop_ && (writing_ || !ready_.contains(written_))) return;
+  writers_.Submit([self = shared_from_this()] {
+    std::lock_guard lock(self->mutex_);
+    self->Advance();
+  });
 }
 
 void MessageStream::OnWriteDone(bool ok) {

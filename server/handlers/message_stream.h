@@ -29,8 +29,9 @@ class MessageStream : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
   struct Setup {
     grpc::CallbackServerContext* context;
     std::unique_ptr<Call> call;
-    base::ThreadPool* pool;
-    int window;  ///< [> 0] messages that may be under way
+    base::ThreadPool* pool;     ///< makes the messages
+    base::ThreadPool* writers;  ///< gives them to gRPC, which sends at once; may be `pool`
+    int window;                 ///< [> 0] messages that may be under way
   };
 
   /// Begins the work; returns what a handler returns to gRPC.
@@ -69,6 +70,7 @@ class MessageStream : public grpc::ServerWriteReactor<grpc::ByteBuffer>,
   grpc::CallbackServerContext* const context_;
   const std::unique_ptr<Call> call_;
   base::ThreadPool& pool_;
+  base::ThreadPool& writers_;
   const int window_;
   grpc::Alarm deadline_alarm_;
   grpc::Alarm cut_alarm_;  // set when the deadline meets a write under way

@@ -8,7 +8,7 @@ std::vector<base::Field> SelftestConfig::Fields() {
       base::Number("step_ms", &step_ms, 0, 1'000'000),
       base::Flag("busy", &busy),
       base::Number("checkpoint_every", &checkpoint_every, 0, 1'000'000'000),
-      base::Number("artifacts", &artifacts, 0, 10'000),
+      base::Number("artifacts", &artifacts, 0, 5000),
       base::Number("artifact_bytes", &artifact_bytes, 0, int64_t{1} << 30),
       base::Number("fail_at", &fail_at, 0, 1'000'000'000),
       base::Text("failure", &failure,

@@ -17,7 +17,7 @@ struct SelftestConfig {
   int64_t step_ms = 10;           ///< [ms, 0 to 10^6] that a step takes
   bool busy = false;              ///< a step computes instead of sleeping
   int64_t checkpoint_every = 0;   ///< [steps] 0: by time, as the worker says
-  int artifacts = 1;              ///< [0, 10,000] files of the result
+  int artifacts = 1;              ///< [0, 5,000] files of the result
   int64_t artifact_bytes = 1024;  ///< [0, 2^30] of each
 
   int64_t fail_at = 0;  ///< [step] after which it fails; 0 = never

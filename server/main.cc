@@ -18,6 +18,7 @@
 #include "core/engine/compute_check.h"
 #include "core/engine/engine.h"
 #include "server/job_log_lines.h"
+#include "server/local_workers.h"
 #include "server/log.h"
 #include "server/poised_options.h"
 #include "server/server.h"
@@ -57,17 +58,38 @@ class Watchdog {
   std::thread thread_;
 };
 
-// NOT_SERVING, serve on for the lame-duck time, then let calls finish. A second signal hurries.
-void Drain(const PoisedOptions& options, Server& server) {
+// NOT_SERVING, serve on for the lame-duck time and until the workers of this machine have given
+// their jobs back, then let calls finish. A second signal hurries.
+void Drain(const PoisedOptions& options, Server& server, LocalWorkers* workers) {
+  constexpr absl::Duration kMargin = absl::Seconds(10);
+  constexpr absl::Duration kLook = absl::Milliseconds(50);
   const absl::Duration lame_duck = absl::Seconds(options.lame_duck_s);
   const absl::Duration drain = absl::Seconds(options.drain_s);
-  constexpr absl::Duration kMargin = absl::Seconds(10);
   Log(level::info, "draining", {{"calls", server.calls()}});
   server.AnnounceShutdown();
+  if (workers != nullptr) workers->Drain();
   const Watchdog watchdog(lame_duck + drain + kMargin);
-  const bool hurry = WaitForShutdownSignal(lame_duck);
-  server.Shutdown(hurry ? absl::Now() : absl::Now() + drain);
+  bool hurry = WaitForShutdownSignal(lame_duck);
+  const absl::Time end = absl::Now() + drain;
+  while (workers != nullptr && !workers->ended() && !hurry && absl::Now() < end) {
+    hurry = WaitForShutdownSignal(kLook);
+  }
+  server.Shutdown(hurry ? absl::Now() : end);
   Log(level::info, "stopped");
+}
+
+// Null when none are wanted.
+StatusOr<std::unique_ptr<LocalWorkers>> StartWorkers(const PoisedOptions& options,
+                                                     const Server& server,
+                                                     engine::JobManager& jobs) {
+  if (options.workers == 0) return nullptr;
+  return LocalWorkers::Start({.slots = options.workers,
+                              .server = server.address(),
+                              .token = options.server.admission.token,
+                              .log_level = options.log_level,
+                              .work_dir = options.engine.data_dir / "work",
+                              .drain = absl::Seconds(options.lame_duck_s + options.drain_s)},
+                             jobs);
 }
 
 // Waits for another process to let go of the data folder, for --takeover-seconds at most. Null:
@@ -110,6 +132,8 @@ Status Serve(PoisedOptions options) {
   }
   POISE_ASSIGN_OR_RETURN(const std::unique_ptr<Server> server,
                          Server::Start(options.server, *engine, telemetry));
+  POISE_ASSIGN_OR_RETURN(const std::unique_ptr<LocalWorkers> workers,
+                         StartWorkers(options, *server, engine->jobs()));
   const base::Json ready = {{"event", "ready"},
                             {"address", server->address()},
                             {"pid", getpid()},
@@ -118,7 +142,7 @@ Status Serve(PoisedOptions options) {
   fmt::print("{}\n", ready.dump());
   std::fflush(stdout);
   WaitForShutdownSignal();
-  Drain(options, *server);
+  Drain(options, *server, workers.get());
   return absl::OkStatus();
 }
 

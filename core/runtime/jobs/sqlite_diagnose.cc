@@ -30,6 +30,10 @@ constexpr std::array kChecks = {
         "SELECT 'table ' || \"table\" || ' row ' || coalesce(rowid, '?') || ' names no row of ' || "
         "parent FROM pragma_foreign_key_check",
         "every row belongs to a job"},
+    Check{"integrity",
+          "SELECT 'job ' || id || ' has lost what it was asked to do' FROM jobs WHERE NOT EXISTS "
+          "(SELECT 1 FROM specs WHERE job = number)",
+          "every job knows what it was asked to do"},
     Check{"counts",
           "SELECT 'tenant ' || name || ' counts ' || counted || ' ' || state || ' jobs, has ' || "
           "there FROM (SELECT name, column1 AS state, CASE column1 WHEN 'QUEUED' THEN queued "
@@ -44,6 +48,11 @@ constexpr std::array kChecks = {
         "' are there or were deleted' FROM (SELECT name, submitted, queued + running + succeeded "
         "+ failed + cancelled + deleted AS known FROM tenants) WHERE submitted <> known",
         "no job is missing"},
+    Check{"counts",
+          "SELECT 'the store counts ' || value || ' events, has ' || there FROM (SELECT value, "
+          "(SELECT count(*) FROM events) AS there FROM settings WHERE name = 'events') "
+          "WHERE value <> there",
+          "the counter of events is right"},
     Check{"leases",
           "SELECT 'job ' || id || ' is RUNNING without a lease' FROM jobs WHERE state = 'RUNNING' "
           "AND NOT EXISTS (SELECT 1 FROM leases WHERE job = number AND "

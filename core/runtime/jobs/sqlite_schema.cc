@@ -15,7 +15,8 @@ namespace {
 // `jobs` holds what changes, `specs` what never does; `leases` is narrow because heartbeats write
 // it. The two indexes of claimable jobs are in the order in which Claim takes them, so that it
 // reads one row of each queue and kind, however many jobs wait. A job that waits for its next
-// attempt (retry_at) is in neither of them.
+// attempt (retry_at) is in neither of them. Events are counted as they come and go: there may be
+// millions, and everybody asks how many.
 constexpr char kVersion1[] = R"(
 CREATE TABLE tenants (
   name TEXT PRIMARY KEY,
@@ -135,6 +136,13 @@ CREATE TABLE events (
   error TEXT,
   PRIMARY KEY (job, seq)
 ) STRICT, WITHOUT ROWID;
+INSERT INTO settings VALUES ('events', 0);
+CREATE TRIGGER event_added AFTER INSERT ON events BEGIN
+  UPDATE settings SET value = value + 1 WHERE name = 'events';
+END;
+CREATE TRIGGER event_removed AFTER DELETE ON events BEGIN
+  UPDATE settings SET value = value - 1 WHERE name = 'events';
+END;
 
 CREATE TABLE workers (
   id TEXT PRIMARY KEY,

@@ -47,9 +47,10 @@ StatusOr<StoreStats> ReadStats(Connection& db, absl::Time now) {
   std::vector<std::string> waiting;
   {
     Query row = db.Prepare(
-        "SELECT name, queued, running, succeeded, failed, cancelled, submitted, deleted, (SELECT "
-        "count(*) FROM leases JOIN jobs ON number = job WHERE tenant = name AND cancelled_by IS "
-        "NOT NULL) FROM tenants");
+        "SELECT name, queued, running, succeeded, failed, cancelled, submitted, deleted, "
+        "coalesce(cancelling, 0) FROM tenants LEFT JOIN (SELECT tenant, count(*) AS cancelling "
+        "FROM leases JOIN jobs ON number = job WHERE cancelled_by IS NOT NULL GROUP BY tenant) "
+        "ON tenant = name");
     while (row.Step()) {
       const int64_t cancelling = row.Int(8);
       stats.jobs[row.Text(0)] = {

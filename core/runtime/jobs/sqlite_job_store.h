@@ -12,7 +12,7 @@ namespace poise::jobs {
 
 struct SqliteStoreConfig {
   std::filesystem::path path;  ///< the database file, made when absent
-  JobPolicy policy;
+  JobPolicy policy = {};
   int readers = 4;                                 ///< [> 0] connections that only read
   std::function<absl::Time()> clock = &absl::Now;  ///< tests pass their own
 };

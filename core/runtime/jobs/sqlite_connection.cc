@@ -7,7 +7,6 @@
 namespace poise::jobs::sqlite {
 namespace {
 
-constexpr int kBusyTimeoutMs = 5000;
 constexpr absl::Duration kRetryDelay = absl::Seconds(2);
 
 // FULL syncs the log at every commit: what was acknowledged survives power loss. Undo data of

@@ -64,6 +64,10 @@ class Query {
   SQLite::Statement* statement_;
 };
 
+/// How long a connection waits for another one's lock; and what sets it anew.
+inline constexpr int kBusyTimeoutMs = 5000;
+inline constexpr const char* kBusyTimeout = "PRAGMA busy_timeout = 5000";
+
 /// A connection that keeps its statements prepared.
 /// Threads: one at a time.
 class Connection {

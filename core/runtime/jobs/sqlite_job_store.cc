@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <system_error>
 #include <utility>
 
 #include "core/base/fail_point.h"
@@ -10,6 +9,7 @@
 #include "core/runtime/jobs/sqlite_connection.h"
 #include "core/runtime/jobs/sqlite_file.h"
 #include "core/runtime/jobs/sqlite_inspect.h"
+#include "core/runtime/jobs/sqlite_log.h"
 #include "core/runtime/jobs/sqlite_readers.h"
 #include "core/runtime/jobs/sqlite_reading.h"
 #include "core/runtime/jobs/sqlite_schema.h"
@@ -20,20 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 using sqlite::Connection;
+using sqlite::FileBytes;
+using sqlite::LogOf;
 using sqlite::Transaction;
 
 constexpr int kReapBatch = 200;
 constexpr int kCollectBatch = 50;
 // Larger files are checked by Diagnose only: a start must not take minutes.
 constexpr int64_t kMaxCheckedBytes = int64_t{256} << 20;
-
-int64_t FileBytes(const fs::path& path) {
-  std::error_code error;
-  const auto size = fs::file_size(path, error);
-  return error ? 0 : static_cast<int64_t>(size);
-}
-
-fs::path LogOf(fs::path path) { return path += "-wal"; }
 
 class SqliteJobStore final : public JobStore {
  public:
@@ -42,7 +36,9 @@ class SqliteJobStore final : public JobStore {
       : config_(std::move(config)),
         ownership_(std::move(ownership)),
         readers_(config_.path, config_.readers),
-        writer_(std::move(connection), config_.policy, config_.clock) {}
+        trimmer_(config_.path, readers_),
+        writer_(std::move(connection), config_.policy, config_.clock,
+                [this](Connection& db) { trimmer_.AfterCommit(db); }) {}
 
   void SetListener(Listener listener) override { writer_.SetListener(std::move(listener)); }
 
@@ -188,6 +184,7 @@ class SqliteJobStore final : public JobStore {
   const SqliteStoreConfig config_;
   const sqlite::FileOwnership ownership_;
   sqlite::Readers readers_;
+  sqlite::LogTrimmer trimmer_;
   sqlite::Writer writer_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -33,6 +34,9 @@ class Readers {
     return result;
   }
 
+  /// Calls `work` while none of them reads; who comes meanwhile waits.
+  void WhileIdle(const std::function<void()>& work);
+
  private:
   std::unique_ptr<Connection> Take();
   void Return(std::unique_ptr<Connection> connection);
@@ -40,6 +44,8 @@ class Readers {
   std::mutex mutex_;
   std::condition_variable returned_;
   std::vector<std::unique_ptr<Connection>> idle_;
+  bool held_ = false;
+  const size_t count_;
 };
 
 }  // namespace poise::jobs::sqlite

@@ -15,10 +15,11 @@ constexpr size_t kMaxGroup = 256;
 }  // namespace
 
 Writer::Writer(std::unique_ptr<Connection> connection, const JobPolicy& policy,
-               std::function<absl::Time()> clock)
+               std::function<absl::Time()> clock, std::function<void(Connection&)> after_commit)
     : connection_(std::move(connection)),
       policy_(policy),
       clock_(std::move(clock)),
+      after_commit_(std::move(after_commit)),
       thread_([this] { Loop(); }) {}
 
 Writer::~Writer() {
@@ -83,6 +84,7 @@ void Writer::CommitTogether(const std::vector<std::shared_ptr<Call>>& calls) {
     (void)Caught([&] { return connection_->Run("ROLLBACK"), absl::OkStatus(); });
   }
   for (const auto& call : calls) call->answer.set_value(committed.ok() ? call->status : committed);
+  after_commit_(*connection_);
 }
 
 Status Writer::RunOne(Call& call, std::vector<Transition>& transitions,

@@ -33,8 +33,9 @@ class Writer {
  public:
   using Work = std::function<Status(Transaction&)>;
 
+  /// `after_commit` is called when those who waited for the commit have their answers.
   Writer(std::unique_ptr<Connection> connection, const JobPolicy& policy,
-         std::function<absl::Time()> clock);
+         std::function<absl::Time()> clock, std::function<void(Connection&)> after_commit);
   /// Does what was asked for before.
   ~Writer();
 
@@ -59,6 +60,7 @@ class Writer {
   const std::unique_ptr<Connection> connection_;
   const JobPolicy policy_;
   const std::function<absl::Time()> clock_;
+  const std::function<void(Connection&)> after_commit_;
 
   std::mutex mutex_;
   std::condition_variable arrived_;

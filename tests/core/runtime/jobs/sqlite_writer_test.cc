@@ -23,7 +23,7 @@ class SqliteWriterTest : public ::testing::Test {
     auto connection =
         std::make_unique<Connection>(folder_.path() / "a.db", Connection::Mode::kWrite);
     connection->Script("CREATE TABLE numbers (value INTEGER PRIMARY KEY) STRICT");
-    writer_.emplace(std::move(connection), jobs::JobPolicy{}, &absl::Now);
+    writer_.emplace(std::move(connection), jobs::JobPolicy{}, &absl::Now, [](Connection&) {});
   }
   Status Insert(int value) {
     return writer_->Run([value](Transaction& t) {

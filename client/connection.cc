@@ -42,4 +42,12 @@ Status Connection::Explain(const grpc::Status& status) const {
                                      options_.server, absl::FormatDuration(options_.outage)));
 }
 
+bool Connection::Pause(absl::Duration time) const {
+  if (channel_->GetState(true) != GRPC_CHANNEL_READY) {
+    return channel_->WaitForConnected(absl::ToChronoTime(absl::Now() + time));
+  }
+  absl::SleepFor(time);
+  return false;
+}
+
 }  // namespace poise::client

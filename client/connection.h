@@ -28,6 +28,11 @@ class Connection {
   /// As ExplainCall; also tells a call that waited for its server in vain: kUnavailable NO_SERVER.
   Status Explain(const grpc::Status& status) const;
 
+  /// Waits until the time is over, or until a connection that is broken stands again, and says
+  /// which. (gRPC works on a connection only while somebody waits for it, so sleeping would not
+  /// do.)
+  bool Pause(absl::Duration time) const;
+
   const ClientOptions& options() const { return options_; }
   v1::AugmentationService::Stub& augmentation() const { return *augmentation_; }
   v1::ArtifactService::Stub& artifact() const { return *artifact_; }

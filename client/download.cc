@@ -84,7 +84,7 @@ Status Download(const Connection& connection, const std::string& name, int64_t o
     if (call.ok()) return call;
     const std::optional<absl::Duration> delay = backoff.Next(call);
     if (!delay || absl::Now() + *delay >= deadline) return call;
-    absl::SleepFor(*delay);
+    connection.Pause(*delay);
   }
 }
 

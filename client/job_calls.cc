@@ -97,7 +97,7 @@ Status Client::DeleteJob(const std::string& id) {
     if (status.ok()) return status;
     const std::optional<absl::Duration> delay = backoff.Next(status);
     if (!delay) return status;
-    absl::SleepFor(*delay);
+    connection_->Pause(*delay);
   }
 }
 

@@ -12,6 +12,9 @@
 namespace poise::client {
 namespace {
 
+// So soon a watch notices its Cancel while the server is gone.
+constexpr absl::Duration kLongestPause = absl::Milliseconds(100);
+
 Status Cancelled() {
   return base::MakeError(absl::StatusCode::kCancelled, "CANCELLED", "", "the watch was cancelled");
 }
@@ -57,7 +60,6 @@ StatusOr<std::optional<api::JobEvent>> JobWatch::Stream::Next() {
 void JobWatch::Stream::Cancel() {
   std::lock_guard lock(mutex_);
   cancelled_ = true;
-  cancelled_changed_.notify_all();
   if (context_ != nullptr) context_->TryCancel();
 }
 
@@ -99,10 +101,13 @@ Status JobWatch::Stream::Break() {
 }
 
 Status JobWatch::Stream::Wait(absl::Duration delay) {
-  std::unique_lock lock(mutex_);
-  cancelled_changed_.wait_for(lock, absl::ToChronoNanoseconds(delay),
-                              [this] { return cancelled_; });
-  return cancelled_ ? Cancelled() : absl::OkStatus();
+  const absl::Time end = absl::Now() + delay;
+  for (bool connected = false; !connected && absl::Now() < end;) {
+    connected = connection_.Pause(std::min(kLongestPause, end - absl::Now()));
+    std::lock_guard lock(mutex_);
+    if (cancelled_) return Cancelled();
+  }
+  return absl::OkStatus();
 }
 
 StatusOr<std::optional<api::JobEvent>> JobWatch::Stream::Take(

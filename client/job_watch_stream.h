@@ -1,7 +1,6 @@
 #ifndef POISE_CLIENT_JOB_WATCH_STREAM_H_
 #define POISE_CLIENT_JOB_WATCH_STREAM_H_
 
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -32,7 +31,7 @@ class JobWatch::Stream {
   StatusOr<std::optional<api::JobEvent>> Take(const v1::WatchJobResponse& response);
   void TakeSnapshot(api::Job job);
   void Apply(const api::JobEvent& event);
-  // OK when the time is over; errors: kCancelled.
+  // OK when the time is over, or the server is back; errors: kCancelled.
   Status Wait(absl::Duration delay);
 
   const Connection& connection_;
@@ -48,7 +47,6 @@ class JobWatch::Stream {
   std::optional<Status> outcome_;  // once there is nothing more to come
 
   std::mutex mutex_;
-  std::condition_variable cancelled_changed_;
   bool cancelled_ = false;
 };
 

@@ -47,7 +47,7 @@ class UploadTask {
       if (status.ok()) break;
       POISE_ASSIGN_OR_RETURN(const absl::Duration delay, DelayAfter(status));
       if (absl::Now() + delay >= deadline_) return status;
-      absl::SleepFor(delay);
+      connection_.Pause(delay);
     }
     if (!IsNamed(stored_.name(), digest_)) {
       return base::Internal("CORRUPTED", fmt::format("sent a file with SHA-256 {}, stored was '{}'",

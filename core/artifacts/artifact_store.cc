@@ -11,6 +11,7 @@
 
 #include "absl/time/clock.h"
 #include "core/artifacts/artifact_name.h"
+#include "core/base/fail_point.h"
 
 namespace poise::artifacts {
 namespace {
@@ -132,6 +133,7 @@ StatusOr<ArtifactInfo> ArtifactStore::Refresh(std::string_view name) {
 
 StatusOr<std::string> ArtifactStore::Read(std::string_view name, int64_t offset,
                                           int64_t max_bytes) const {
+  base::FailPoint("artifacts.before_read");
   POISE_ASSIGN_OR_RETURN(const File file, File::Open(config_.root, name));
   if (offset < 0 || offset > file.size()) {
     return base::InvalidArgument(

@@ -109,6 +109,7 @@ Status ArtifactWriter::Append(std::string_view bytes) {
     if (written < 0) return CannotStore(staging_);
     bytes.remove_prefix(written);
   }
+  base::FailPoint("artifacts.after_append");
   return absl::OkStatus();
 }
 
@@ -124,6 +125,7 @@ StatusOr<ArtifactInfo> ArtifactWriter::Commit(std::string_view expected_sha256) 
   base::FailPoint("artifacts.before_commit");
   if (fsync(file_) != 0) return CannotStore(staging_);
   POISE_RETURN_IF_ERROR(MoveTo(digest));
+  base::FailPoint("artifacts.after_commit");
   return ArtifactInfo{ArtifactName(digest), size_};
 }
 

@@ -3,8 +3,6 @@
 #include <utility>
 
 #include "core/artifacts/artifact_name.h"
-#include "proto/convert/status_convert.h"
-#include "server/handlers/guard.h"
 #include "server/handlers/message_stream.h"
 #include "server/handlers/refusal.h"
 #include "server/handlers/upload_stream.h"
@@ -49,7 +47,7 @@ class DownloadStream : public MessageStream {
 
 ArtifactHandler::ArtifactHandler(artifacts::ArtifactStore& store, Admission& admission,
                                  const MethodPolicies& policies)
-    : store_(store), admission_(admission), policies_(policies) {}
+    : store_(store), admission_(admission), policies_(policies), unary_(admission, files_) {}
 
 grpc::ServerReadReactor<grpc::ByteBuffer>* ArtifactHandler::Upload(
     grpc::CallbackServerContext* context, grpc::ByteBuffer* response) {
@@ -62,22 +60,9 @@ grpc::ServerReadReactor<grpc::ByteBuffer>* ArtifactHandler::Upload(
 grpc::ServerUnaryReactor* ArtifactHandler::GetUpload(grpc::CallbackServerContext* context,
                                                      const grpc::ByteBuffer* request,
                                                      grpc::ByteBuffer* response) {
-  grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
-  StatusOr<std::unique_ptr<Call>> call = admission_.Admit(*context, policies_.get_upload);
-  if (!call.ok()) {
-    reactor->Finish(convert::ToGrpc(call.status()));
-    return reactor;
-  }
-  files_.Submit([this, reactor, request, response, call = std::shared_ptr(*std::move(call))] {
-    const Status status = Guarded(*call, [&]() -> Status {
-      POISE_ASSIGN_OR_RETURN(const auto parsed, Parse<v1::GetUploadRequest>(*request));
-      POISE_ASSIGN_OR_RETURN(const v1::UnfinishedUpload upload, FindUpload(parsed));
-      *response = Serialize(upload);
-      return absl::OkStatus();
-    });
-    reactor->Finish(convert::ToGrpc(status));
-  });
-  return reactor;
+  return unary_.Answer<v1::GetUploadRequest>(
+      {context, request, response}, policies_.get_upload,
+      [this](const v1::GetUploadRequest& message, const Call&) { return FindUpload(message); });
 }
 
 StatusOr<v1::UnfinishedUpload> ArtifactHandler::FindUpload(const v1::GetUploadRequest& request) {

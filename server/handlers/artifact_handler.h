@@ -5,6 +5,7 @@
 #include "core/base/thread_pool.h"
 #include "poise/v1/artifact_service.grpc.pb.h"
 #include "server/admission/admission.h"
+#include "server/handlers/unary_methods.h"
 
 namespace poise::server {
 
@@ -37,6 +38,7 @@ class ArtifactHandler
   Admission& admission_;
   const MethodPolicies policies_;
   base::ThreadPool files_{2};
+  UnaryMethods unary_;
 };
 
 }  // namespace poise::server

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "absl/time/clock.h"
-#include "core/base/identifier.h"
 #include "core/base/sha256.h"
 #include "proto/convert/job_convert.h"
 #include "proto/convert/status_convert.h"
@@ -25,7 +24,7 @@ grpc::Status NotFound() {
 std::string FakeJobs::Add(api::JobState state) {
   std::lock_guard lock(mutex_);
   api::Job job;
-  job.id = base::TimeOrderedId(absl::Now());
+  job.id = std::to_string(1000'000 + ++created_);
   job.spec.kind = "selftest";
   job.create_time = absl::Now();
   Entry& entry = jobs_[job.id];
@@ -88,7 +87,7 @@ grpc::Status FakeJobs::CreateJob(grpc::ServerContext* context, const v1::CreateJ
     }
   }
   api::Job job;
-  job.id = base::TimeOrderedId(absl::Now());
+  job.id = std::to_string(1000'000 + ++created_);
   job.spec = *convert::FromProto(request->spec());
   job.request_id = request->request_id();
   job.create_time = absl::Now();
@@ -105,6 +104,54 @@ grpc::Status FakeJobs::GetJob(grpc::ServerContext*, const v1::GetJobRequest* req
   const auto found = jobs_.find(*convert::JobId(request->name()));
   if (found == jobs_.end()) return NotFound();
   *answer = convert::ToProto(found->second.job);
+  return LoseAnswer();
+}
+
+// In pages of two; the token is the number of jobs that have been given.
+grpc::Status FakeJobs::ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
+                                v1::ListJobsResponse* answer) {
+  std::lock_guard lock(mutex_);
+  const auto filter = api::JobFilter::Parse(request->filter());
+  if (!filter.ok()) return convert::ToGrpc(filter.status());
+  size_t skip = request->page_token().empty() ? 0 : std::stoul(request->page_token());
+  const size_t end = skip + std::clamp(request->page_size(), 1, 2);
+  size_t number = 0;
+  for (auto entry = jobs_.rbegin(); entry != jobs_.rend(); ++entry) {
+    const api::Job& job = entry->second.job;
+    if (filter->state && *filter->state != job.state) continue;
+    if (!filter->kind.empty() && filter->kind != job.spec.kind) continue;
+    if (number >= skip && number < end) *answer->add_jobs() = convert::ToProto(job);
+    if (number++ == end) answer->set_next_page_token(std::to_string(end));
+  }
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeJobs::CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request,
+                                 v1::Job* answer) {
+  std::lock_guard lock(mutex_);
+  const auto found = jobs_.find(*convert::JobId(request->name()));
+  if (found == jobs_.end()) return NotFound();
+  if (!api::IsTerminal(found->second.job.state)) {
+    Append(found->second, {.state = api::JobState::kCancelled});
+  }
+  *answer = convert::ToProto(found->second.job);
+  return LoseAnswer();
+}
+
+grpc::Status FakeJobs::RetryJob(grpc::ServerContext*, const v1::RetryJobRequest* request,
+                                v1::Job* answer) {
+  std::lock_guard lock(mutex_);
+  const auto found = jobs_.find(*convert::JobId(request->name()));
+  if (found == jobs_.end()) return NotFound();
+  api::Job job;
+  job.id = std::to_string(1000'000 + ++created_);
+  job.spec = found->second.job.spec;
+  job.request_id = request->request_id();
+  job.retry_of = found->second.job.id;
+  job.create_time = absl::Now();
+  jobs_[job.id].job = job;
+  Append(jobs_[job.id], {.state = api::JobState::kQueued});
+  *answer = convert::ToProto(jobs_[job.id].job);
   return LoseAnswer();
 }
 

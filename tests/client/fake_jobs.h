@@ -43,6 +43,10 @@ class FakeJobs : public v1::JobService::Service {
 
   grpc::Status CreateJob(grpc::ServerContext*, const v1::CreateJobRequest*, v1::Job*) override;
   grpc::Status GetJob(grpc::ServerContext*, const v1::GetJobRequest*, v1::Job*) override;
+  grpc::Status ListJobs(grpc::ServerContext*, const v1::ListJobsRequest*,
+                        v1::ListJobsResponse*) override;
+  grpc::Status CancelJob(grpc::ServerContext*, const v1::CancelJobRequest*, v1::Job*) override;
+  grpc::Status RetryJob(grpc::ServerContext*, const v1::RetryJobRequest*, v1::Job*) override;
   grpc::Status DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest*,
                          google::protobuf::Empty*) override;
   grpc::Status WatchJob(grpc::ServerContext* context, const v1::WatchJobRequest* request,
@@ -60,6 +64,7 @@ class FakeJobs : public v1::JobService::Service {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::string, Entry> jobs_;
+  int created_ = 0;  // ids count up, so that they sort
 };
 
 /// Answers what it was given under a name, and breaks downloads off.

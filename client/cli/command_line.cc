@@ -9,16 +9,19 @@
 namespace poise::cli {
 namespace {
 
-// The sub-command that was typed, or the program itself.
+// The innermost sub-command that was typed, or the program itself.
 const CLI::App& Chosen(const CLI::App& app) {
   const auto commands = app.get_subcommands();
-  return commands.empty() ? app : *commands.front();
+  return commands.empty() ? app : Chosen(*commands.front());
 }
+
+// A command that does nothing itself: what follows it should be one of its own.
+bool IsGroup(const CLI::App& app) { return !app.get_subcommands(nullptr).empty(); }
 
 std::string FullName(const CLI::App& app) {
   return app.get_parent() == nullptr
              ? app.get_name()
-             : fmt::format("{} {}", app.get_parent()->get_name(), app.get_name());
+             : fmt::format("{} {}", FullName(*app.get_parent()), app.get_name());
 }
 
 std::vector<std::string> CommandNames(const CLI::App& app) {
@@ -52,18 +55,18 @@ Status CheckExtras(const CLI::App& app) {
   const std::string hint = fmt::format("; see '{} --help'", FullName(chosen));
   for (const std::string& extra : extras) {
     if (extra.size() < 2 || extra[0] != '-') continue;
-    if (&chosen == &app && extra != extras.front()) break;  // a flag of the unknown command
+    if (IsGroup(chosen) && extra != extras.front()) break;  // a flag of the unknown command
     const std::string flag = FlagOf(extra);
     return base::InvalidArgument(
         "UNKNOWN_FLAG", flag,
         fmt::format("unknown flag '{}'{}{}", flag,
                     Suggestion(base::NearestName(flag, FlagNames(chosen))), hint));
   }
-  if (&chosen == &app) {
+  if (IsGroup(chosen)) {
     return base::InvalidArgument(
         "UNKNOWN_COMMAND", "",
         fmt::format("unknown command '{}'{}{}", extras.front(),
-                    Suggestion(base::NearestName(extras.front(), CommandNames(app))), hint));
+                    Suggestion(base::NearestName(extras.front(), CommandNames(chosen))), hint));
   }
   return base::InvalidArgument("BAD_USAGE", "",
                                fmt::format("unexpected argument '{}'{}", extras.front(), hint));
@@ -87,9 +90,10 @@ StatusOr<bool> ParseCommandLine(CLI::App& app, int argc, const char* const* argv
     return base::InvalidArgument(
         "BAD_USAGE", "", fmt::format("{}; see '{} --help'", error.what(), FullName(Chosen(app))));
   }
-  if (app.get_subcommands().empty()) {
-    std::cerr << app.help();
-    return base::InvalidArgument("BAD_USAGE", "", "no command given");
+  if (const CLI::App& chosen = Chosen(app); IsGroup(chosen)) {
+    std::cerr << chosen.help();
+    return base::InvalidArgument(
+        "BAD_USAGE", "", fmt::format("no command given; see '{} --help'", FullName(chosen)));
   }
   return true;
 }

@@ -1,6 +1,8 @@
 #ifndef POISE_CLIENT_CLI_COMMANDS_H_
 #define POISE_CLIENT_CLI_COMMANDS_H_
 
+#include <vector>
+
 #include "client/cli/command_line.h"
 #include "client/cli/console.h"
 
@@ -17,6 +19,10 @@ Command AddFkCommand(CLI::App& app, const Console& console);
 Command AddAugmentCommand(CLI::App& app, const Console& console);
 /// Whether a server takes calls (health_command.cc).
 Command AddHealthCommand(CLI::App& app, const Console& console);
+/// Long work on a server (jobs_command.cc, jobs/).
+std::vector<Command> AddJobsCommands(CLI::App& app, const Console& console);
+/// For operators (admin_command.cc).
+std::vector<Command> AddAdminCommands(CLI::App& app, const Console& console);
 
 }  // namespace poise::cli
 

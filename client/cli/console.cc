@@ -29,7 +29,9 @@ void Console::Note(std::string_view line) const {
 
 ExitCode Console::Finish(const Status& status) const {
   if (status.ok()) return ExitCode::kOk;
-  if (json_) {
+  if (json_ && IsJobOutcome(status)) {
+    // The job's own line has its error.
+  } else if (json_) {
     PrintJson({{"error",
                 {{"code", absl::StatusCodeToString(status.code())},
                  {"reason", base::ErrorReason(status)},

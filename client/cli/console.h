@@ -27,7 +27,8 @@ class Console {
   void Note(std::string_view line) const;
 
   /// Prints the error, if it is one, and gives the program's exit code. With --json the error is
-  /// {"error": {"code", "reason", "message", "field"}} on standard output.
+  /// {"error": {"code", "reason", "message", "field"}} on standard output; nothing for the end of a
+  /// job, which its own line tells.
   ExitCode Finish(const Status& status) const;
 
  private:

@@ -2,7 +2,13 @@
 
 namespace poise::cli {
 
+bool IsJobOutcome(const Status& status) {
+  const std::string reason = base::ErrorReason(status);
+  return reason == kJobFailedReason || reason == kJobCancelledReason;
+}
+
 ExitCode ExitCodeOf(const Status& status) {
+  if (base::ErrorReason(status) == kJobFailedReason) return ExitCode::kJobFailed;
   switch (status.code()) {
     case absl::StatusCode::kOk:
       return ExitCode::kOk;

@@ -15,7 +15,14 @@ enum class ExitCode {
   kUnavailable = 5,
   kStopped = 6,  ///< cancelled, or out of time
   kResourceExhausted = 7,
+  kJobFailed = 8,
 };
+
+/// Reasons of the errors with which a command ends that waited for a job: it did its own part, and
+/// the job is told by its own line.
+inline constexpr char kJobFailedReason[] = "JOB_FAILED";
+inline constexpr char kJobCancelledReason[] = "JOB_CANCELLED";
+bool IsJobOutcome(const Status& status);
 
 ExitCode ExitCodeOf(const Status& status);
 

@@ -16,6 +16,9 @@ class CommandLineTest : public ::testing::Test {
     augment->add_option("-n,--variants", count_);
     AddJsonFlag(*augment);
     app_.add_subcommand("info", "");
+    CLI::App* jobs = app_.add_subcommand("jobs", "");
+    jobs->add_subcommand("list", "")->add_option("--state", state_);
+    jobs->add_subcommand("cancel", "");
   }
 
   StatusOr<bool> Parse(std::vector<const char*> arguments) {
@@ -34,6 +37,7 @@ class CommandLineTest : public ::testing::Test {
   CLI::App app_;
   std::vector<std::string> files_;
   std::string method_;
+  std::string state_;
   int count_ = 0;
 };
 
@@ -44,6 +48,20 @@ TEST_F(CommandLineTest, GoodFlagsAreParsed) {
   EXPECT_EQ(files_.size(), 2u);
   EXPECT_EQ(method_, "ik");
   EXPECT_EQ(count_, 3);
+}
+
+TEST_F(CommandLineTest, ACommandBelowACommandIsParsed) {
+  const auto parsed = Parse({"jobs", "list", "--state", "FAILED"});
+  ASSERT_TRUE(parsed.ok()) << parsed.status();
+  EXPECT_EQ(state_, "FAILED");
+}
+
+TEST_F(CommandLineTest, MistakesBelowACommandNameTheNearestThere) {
+  ExpectError({"jobs", "lst"}, "UNKNOWN_COMMAND", "did you mean 'list'?); see 'poise jobs --help'");
+  ExpectError({"jobs", "list", "--stat", "x"}, "UNKNOWN_FLAG",
+              "did you mean '--state'?); see 'poise jobs list --help'");
+  ExpectError({"jobs", "list", "x"}, "BAD_USAGE", "'x'");
+  ExpectError({"jobs"}, "BAD_USAGE", "no command given; see 'poise jobs --help'");
 }
 
 TEST_F(CommandLineTest, AMistypedCommandNamesTheNearest) {

@@ -27,6 +27,14 @@ TEST(UsageTest, EveryCommandExplainsItselfWithExamples) {
     EXPECT_THAT(run.out, HasSubstr(std::string("  poise ") + command)) << command;
     EXPECT_THAT(run.out, HasSubstr("--json")) << command;
   }
+  for (const std::string command :
+       {"create", "list", "get", "watch", "cancel", "result", "delete", "retry"}) {
+    const PoiseRun run = RunPoise({"jobs", command, "--help"});
+    EXPECT_EQ(run.exit_code, 0) << command;
+    EXPECT_THAT(run.out, HasSubstr("  poise jobs " + command)) << command;
+    EXPECT_THAT(run.out, HasSubstr("--json")) << command;
+  }
+  EXPECT_THAT(RunPoise({"admin", "doctor", "--help"}).out, HasSubstr("poise admin doctor"));
 }
 
 TEST(UsageTest, WrongUsageExitsWithTwoAndASuggestion) {

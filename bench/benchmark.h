@@ -30,6 +30,7 @@ std::vector<Row> RunBlasBenchmark();
 std::vector<Row> RunGrpcBenchmark();
 std::vector<Row> RunIkBenchmark();
 std::vector<Row> RunJobsBenchmark();
+std::vector<Row> RunSimBenchmark();
 
 /// How often `work` runs in one second of this thread's own computing time, which other processes
 /// do not take away: the best of several rounds that last `round_seconds` each, after one to warm

@@ -1,0 +1,76 @@
+#ifndef POISE_CORE_CORRECTION_TRACKING_MOTION_TRACKER_H_
+#define POISE_CORE_CORRECTION_TRACKING_MOTION_TRACKER_H_
+
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/correction/reference_motion.h"
+#include "core/correction/reward.h"
+#include "core/correction/tracking/tracking_config.h"
+#include "core/physics/world.h"
+
+namespace poise::correction {
+
+/// How well a simulated body imitated one motion. Sums over frames; "until the fall" where the
+/// motion was not completed.
+struct TrackingScore {
+  bool completed = false;             ///< no fall, and the pelvis within its limit all the time
+  double completion = 0;              ///< part of the motion until it failed
+  double reward_imitation = 0;        ///< mean until the fall
+  double reward_normalised = 0;       ///< the same sum over the whole motion: 0 after a fall
+  double reward_total = 0;            ///< mean of the total reward, 0 after a fall
+  double residual_force_mean_bw = 0;  ///< [body weights] until the fall
+  double residual_force_peak_bw = 0;
+  double residual_torque_mean_nm = 0;  ///< [N m]
+  double residual_torque_peak_nm = 0;
+  double torque_saturation = 0;  ///< part of all joints and steps at their limit
+  double pose_error_rad = 0;     ///< mean angle over joints
+  double pose_error_m = 0;       ///< mean distance over joints
+  double pelvis_error_mean_m = 0;
+  double pelvis_error_max_m = 0;
+};
+
+/// What the body really did, frame by frame beside its reference, from the first to the last frame
+/// even after a fall.
+struct Recording {
+  motion::Clip clip;
+  TrackingScore score;
+};
+
+/// Imitates a motion with the controller without learning. One World, reused.
+/// Threads: one caller at a time.
+class MotionTracker {
+ public:
+  /// `world.rate_hz` is rounded so that a frame is a whole number of steps.
+  /// Errors: kInvalidArgument CONFIG_VALUE_OUT_OF_RANGE, those of World.
+  static StatusOr<MotionTracker> Create(physics::HumanoidModelPtr model,
+                                        const physics::WorldConfig& world, double frame_rate,
+                                        const TrackingConfig& config = {},
+                                        const RewardConfig& reward = {});
+
+  /// From t = 0. `reference` must be of the same character and frame rate.
+  /// Errors: kCancelled, kDeadlineExceeded of `context`; kOutOfRange DIVERGED (a velocity above 100
+  /// m/s or rad/s, or no number).
+  StatusOr<Recording> Track(const ReferenceMotion& reference, const base::RunContext& context = {});
+
+ private:
+  MotionTracker(physics::HumanoidModelPtr model, physics::World world, int steps_per_frame,
+                const TrackingConfig& config, const RewardConfig& reward);
+
+  void Aim(const ReferenceMotion& reference, double time_s, physics::Drive& drive) const;
+  physics::Speeds FeedForward(const physics::State& wanted,
+                              const physics::Speeds& acceleration) const;
+  void HoldResidual(const physics::State& wanted, physics::Drive& drive) const;
+  bool Failed(const ReferenceMotion& reference, double time_s) const;
+
+  physics::HumanoidModelPtr model_;
+  physics::World world_;
+  int steps_per_frame_;
+  int steps_per_aim_;
+  TrackingConfig config_;
+  RewardConfig reward_;
+};
+
+}  // namespace poise::correction
+
+#endif  // POISE_CORE_CORRECTION_TRACKING_MOTION_TRACKER_H_

@@ -1,0 +1,126 @@
+#include "core/correction/tracking/motion_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/core/correction/tracked_clip.h"
+#include "tests/support/data_files.h"
+
+namespace poise::correction {
+namespace {
+
+StatusOr<Recording> Imitate(const TrackedClip& clip, const TrackingConfig& config = {},
+                            const physics::WorldConfig& world = {}) {
+  POISE_ASSIGN_OR_RETURN(
+      MotionTracker tracker,
+      MotionTracker::Create(clip.model, world, clip.reference.frame_rate(), config));
+  return tracker.Track(clip.reference);
+}
+
+TEST(MotionTrackerTest, ImitatesASwayInBothEngines) {
+  const TrackedClip clip = Prepare(SwayingClip(3));
+  for (const char* engine : {"own", "bullet"}) {
+    physics::WorldConfig world;
+    world.engine = engine;
+    const Recording recording = *Imitate(clip, {}, world);
+    EXPECT_TRUE(recording.score.completed);
+    EXPECT_EQ(recording.score.completion, 1);
+    EXPECT_GT(recording.score.reward_normalised, 0.9);
+    EXPECT_LT(recording.score.residual_force_mean_bw, 0.1);
+    EXPECT_LT(recording.score.pelvis_error_max_m, 0.05);
+    EXPECT_EQ(recording.clip.num_frames(), clip.reference.num_frames());
+  }
+}
+
+TEST(MotionTrackerTest, TheSameMotionGivesTheSameRecording) {
+  const TrackedClip clip = Prepare(SwayingClip(2));
+  const Recording first = *Imitate(clip), second = *Imitate(clip);
+  for (int frame = 0; frame < first.clip.num_frames(); ++frame) {
+    EXPECT_EQ(first.clip.root_position(frame), second.clip.root_position(frame));
+  }
+  EXPECT_EQ(first.score.reward_total, second.score.reward_total);
+}
+
+TEST(MotionTrackerTest, AFallScoresNothingAfterItAndIsRecordedToTheEnd) {
+  // Leans over until nobody can hold it who is not held himself.
+  motion::Clip leaning = SwayingClip(3);
+  for (int frame = 0; frame < leaning.num_frames(); ++frame) {
+    const double lean = std::min(frame / 120.0, 1.2);
+    leaning.rotation(frame, 0) = math::FromRotationVector(Vec3(lean, 0, 0));
+    leaning.root_position(frame) += 0.95 * Vec3(0, std::cos(lean) - 1, std::sin(lean));
+  }
+  const TrackedClip clip = Prepare(leaning);
+  TrackingConfig config;
+  config.residual_factor = 0;
+  const Recording recording = *Imitate(clip, config);
+  EXPECT_FALSE(recording.score.completed);
+  EXPECT_LT(recording.score.completion, 1);
+  EXPECT_LT(recording.score.reward_normalised, recording.score.reward_imitation);
+  EXPECT_EQ(recording.clip.num_frames(), 361);
+  EXPECT_EQ(recording.score.residual_force_peak_bw, 0);
+}
+
+TEST(MotionTrackerTest, EachPartOfTheControllerChangesTheScore) {
+  const TrackedClip clip = Prepare(SwayingClip(3));
+  const double whole = Imitate(clip)->score.reward_normalised;
+  TrackingConfig still, plain, loose;
+  still.target_velocity = false;
+  plain.feed_forward = false;
+  loose.residual_factor = 0.5;
+  for (const TrackingConfig& config : {still, plain, loose}) {
+    EXPECT_NE(Imitate(clip, config)->score.reward_normalised, whole);
+  }
+}
+
+TEST(MotionTrackerTest, StopsWhenAskedTo) {
+  const TrackedClip clip = Prepare(SwayingClip(1));
+  MotionTracker tracker = std::move(MotionTracker::Create(clip.model, {}, 120)).value();
+  base::RunContext context;
+  context.cancellation.Cancel();
+  EXPECT_EQ(tracker.Track(clip.reference, context).status().code(), absl::StatusCode::kCancelled);
+}
+
+struct ClassScore {
+  int clips = 0, completed = 0;
+  double reward_normalised = 0, force = 0;  // means over clips
+};
+
+ClassScore ScoreClass(const std::string& folder, const TrackingConfig& config,
+                      const physics::WorldConfig& world) {
+  ClassScore sum;
+  for (const auto& file : testing::DataFiles(folder, {".amc"})) {
+    ++sum.clips;
+    const auto recording = Imitate(ReadAndPrepare(file), config, world);
+    if (!recording.ok()) continue;
+    sum.completed += recording->score.completed;
+    sum.reward_normalised += recording->score.reward_normalised;
+    sum.force += recording->score.residual_force_mean_bw;
+  }
+  sum.reward_normalised /= sum.clips;
+  sum.force /= sum.clips;
+  return sum;
+}
+
+TEST(RealKicksTest, ThePapersZeroPolicyFallsInSome) {
+  POISE_REQUIRE_DATA("hdm05/kickLFront1Reps");
+  const ClassScore score = ScoreClass("hdm05/kickLFront1Reps", *TrackingConfig::FromPreset("paper"),
+                                      *physics::WorldConfig::FromPreset("paper"));
+  EXPECT_EQ(score.clips, 28);
+  EXPECT_GE(score.completed, 18);
+  EXPECT_LE(score.completed, 26);
+  EXPECT_GT(score.reward_normalised, 0.64);
+  EXPECT_LT(score.reward_normalised, 0.76);
+  EXPECT_NEAR(score.force, 0.19, 0.02);
+}
+
+TEST(RealKicksTest, TheControllerWithoutLearningCompletesAll) {
+  POISE_REQUIRE_DATA("hdm05/kickLFront1Reps");
+  const ClassScore score = ScoreClass("hdm05/kickLFront1Reps", {}, {});
+  EXPECT_EQ(score.completed, 28);
+  EXPECT_GT(score.reward_normalised, 0.92);
+  EXPECT_LT(score.force, 0.1);
+}
+
+}  // namespace
+}  // namespace poise::correction

@@ -1,0 +1,65 @@
+#include "core/correction/reference_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "core/physics/floor_alignment.h"
+#include "tests/core/correction/tracked_clip.h"
+#include "tests/support/test_clips.h"
+
+namespace poise::correction {
+namespace {
+
+TEST(ReferenceMotionTest, VelocitiesCarryThePoseFromFrameToFrame) {
+  const TrackedClip clip = Prepare(testing::SwingingClip(200));
+  const double step = 1 / clip.reference.frame_rate();
+  for (int frame = 50; frame < 150; ++frame) {
+    const physics::State& now = clip.reference.frame(frame);
+    const physics::State& next = clip.reference.frame(frame + 1);
+    const physics::Speeds mean = (now.speeds + next.speeds) / 2;
+    EXPECT_LT((now.root_position + step * mean.head<3>() - next.root_position).norm(), 2e-4);
+    for (int i = 1; i < physics::kMaxBodies; ++i) {
+      if (clip.model->articulation().bodies[i].rigid_joint) continue;
+      const Vec3 turn = step * mean.segment<3>(physics::SpeedIndex(i));
+      const Quat moved = now.rotations[i] * math::FromRotationVector(turn);
+      EXPECT_LT(math::GeodesicDistance(moved, next.rotations[i]), 2e-3) << "body " << i;
+    }
+  }
+}
+
+TEST(ReferenceMotionTest, AccelerationsAreTheChangeOfVelocities) {
+  const TrackedClip clip = Prepare(testing::SwingingClip(300));
+  physics::Speeds speeds = clip.reference.frame(100).speeds;
+  const double step = 1.0 / 120;
+  for (int frame = 100; frame < 200; ++frame) {
+    speeds += step * clip.reference.AccelerationAt((frame + 0.5) * step);
+  }
+  EXPECT_LT((speeds - clip.reference.frame(200).speeds).norm(), 0.1);
+}
+
+TEST(ReferenceMotionTest, StandsOnTheFloorAndHoldsItsEnd) {
+  const TrackedClip clip = Prepare(SwayingClip(1));
+  EXPECT_NEAR(physics::FloorHeight(clip.reference.clip(), clip.model->shapes(),
+                                   physics::FloorRule::kLowest),
+              0, 1e-9);
+  const physics::State late = clip.reference.At(99);
+  EXPECT_TRUE(late.speeds.isZero());
+  EXPECT_EQ(late.root_position, clip.reference.frame(120).root_position);
+  EXPECT_TRUE(clip.reference.AccelerationAt(99).isZero());
+}
+
+TEST(ReferenceMotionTest, RefusesClipsThatAreTooShortOrOfOtherJoints) {
+  const TrackedClip clip = Prepare(SwayingClip(1));
+  const auto other = ReferenceMotion::Create(testing::SwingingClip(20), *clip.model);
+  EXPECT_EQ(base::ErrorReason(other.status()), "WRONG_SHAPE");
+  const motion::Clip& whole = clip.reference.clip();
+  const auto positions = whole.root_positions().first(3);
+  const auto rotations = whole.rotations().first(3 * 16);
+  const motion::Clip brief =
+      *motion::Clip::Create("brief", whole.skeleton(), 120, {positions.begin(), positions.end()},
+                            {rotations.begin(), rotations.end()});
+  EXPECT_EQ(base::ErrorReason(ReferenceMotion::Create(brief, *clip.model).status()),
+            "CLIP_TOO_SHORT");
+}
+
+}  // namespace
+}  // namespace poise::correction

@@ -1,0 +1,25 @@
+#ifndef POISE_TESTS_CORE_CORRECTION_TRACKED_CLIP_H_
+#define POISE_TESTS_CORE_CORRECTION_TRACKED_CLIP_H_
+
+#include <filesystem>
+
+#include "core/correction/reference_motion.h"
+#include "core/physics/humanoid_model.h"
+
+namespace poise::correction {
+
+/// A motion and the character that is to imitate it.
+struct TrackedClip {
+  physics::HumanoidModelPtr model;
+  ReferenceMotion reference;
+};
+
+TrackedClip Prepare(const motion::Clip& clip);
+TrackedClip ReadAndPrepare(const std::filesystem::path& file);
+
+/// The test skeleton stands for `seconds` and, from the first second on, sways its arms.
+motion::Clip SwayingClip(double seconds);
+
+}  // namespace poise::correction
+
+#endif  // POISE_TESTS_CORE_CORRECTION_TRACKED_CLIP_H_

@@ -33,7 +33,8 @@ double OneRound(const std::function<void()>& work, double seconds) {
 
 const std::vector<Benchmark>& Benchmarks() {
   static const std::vector<Benchmark> benchmarks = {
-      {"blas", RunBlasBenchmark}, {"grpc", RunGrpcBenchmark}, {"ik", RunIkBenchmark},
+      {"blas", RunBlasBenchmark}, {"correction", RunCorrectionBenchmark},
+      {"grpc", RunGrpcBenchmark}, {"ik", RunIkBenchmark},
       {"jobs", RunJobsBenchmark}, {"sim", RunSimBenchmark},
   };
   return benchmarks;

@@ -27,6 +27,7 @@ struct Benchmark {
 const std::vector<Benchmark>& Benchmarks();
 
 std::vector<Row> RunBlasBenchmark();
+std::vector<Row> RunCorrectionBenchmark();
 std::vector<Row> RunGrpcBenchmark();
 std::vector<Row> RunIkBenchmark();
 std::vector<Row> RunJobsBenchmark();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/math/low_pass.h"
 #include "core/math/slerp.h"
@@ -40,12 +41,44 @@ void Filter(std::vector<Speeds>& rows, double rate_hz, double cutoff_hz) {
   }
 }
 
+// First frame after `from` at which the joint is where steady turning could have brought it, or -1.
+int FrameBack(const std::vector<State>& frames, int joint, int from, int last, double most) {
+  for (int frame = from + 2; frame <= last; ++frame) {
+    const double turn =
+        math::GeodesicDistance(frames[from].rotations[joint], frames[frame].rotations[joint]);
+    if (turn <= std::min((frame - from) * most, 0.25 * std::numbers::pi)) return frame;
+  }
+  return -1;
+}
+
+void RepairFlips(std::vector<State>& frames, double frame_rate, const ReferenceConfig& config) {
+  const double most = config.flip_speed / frame_rate;  // [rad] per frame
+  const int window = static_cast<int>(config.flip_longest_s * frame_rate);
+  const int last = static_cast<int>(frames.size()) - 1;
+  for (int joint = 1; joint < kMaxBodies; ++joint) {
+    for (int f = 0; f < last; ++f) {
+      const Quat before = frames[f].rotations[joint];
+      if (math::GeodesicDistance(before, frames[f + 1].rotations[joint]) <= most) continue;
+      const int back = FrameBack(frames, joint, f, std::min(f + window, last), most);
+      if (back < 0) continue;
+      const Quat after = frames[back].rotations[joint];
+      for (int k = f + 1; k < back; ++k) {
+        const double u = static_cast<double>(k - f) / (back - f);
+        frames[k].rotations[joint] = math::SlerpAt(u)(before, after);
+      }
+      f = back - 1;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<base::Field> ReferenceConfig::Fields() {
   return {
       base::Number("velocity_cutoff_hz", &velocity_cutoff_hz, 0.1, 1000),
       base::Text("floor", &floor, {"lowest", "median", "none"}),
+      base::Number("flip_speed", &flip_speed, 1, 1e6),
+      base::Number("flip_longest_s", &flip_longest_s, 0, 10),
   };
 }
 
@@ -77,6 +110,7 @@ StatusOr<ReferenceMotion> ReferenceMotion::Create(const motion::Clip& clip,
     motion.frames_[f].root_position = motion.clip_.root_position(f);
     std::ranges::copy(motion.clip_.pose(f), motion.frames_[f].rotations.begin());
   }
+  RepairFlips(motion.frames_, motion.frame_rate(), config);
   const double step = 1 / motion.frame_rate();
   std::vector<Speeds> speeds(frames);
   for (int f = 0; f < frames; ++f) {

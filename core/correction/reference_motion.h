@@ -20,6 +20,10 @@ struct ReferenceConfig {
                                   ///< 1 Hz removes most of a kick's
   /// How the clip is put on the ground by the character's own foot boxes: lowest | median | none
   std::string floor = "lowest";
+  /// [rad/s] A joint that turns faster between two frames and is back within flip_longest_s was
+  /// flipped by the capture's solver; it is led past. The fastest kicks stay below 40.
+  double flip_speed = 60;
+  double flip_longest_s = 0.3;  ///< [s, >= 0] 0 leaves flips as they are
 
   std::vector<base::Field> Fields();
 };

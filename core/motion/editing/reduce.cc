@@ -90,4 +90,45 @@ StatusOr<Clip> ReduceToRoles(const Clip& clip, const JointRoles& roles, Reductio
                       std::move(rotations));
 }
 
+StatusOr<JointRoles> ReducedRoles(const Skeleton& reduced) {
+  RoleOverrides overrides;
+  for (int i = 0; i < kNumRequiredRoles; ++i) {
+    overrides[RoleName(static_cast<JointRole>(i))] =
+        i < reduced.num_joints() ? reduced.joint(i).name : std::string();
+  }
+  return JointRoles::Detect(reduced, overrides);
+}
+
+StatusOr<Clip> ExpandFromRoles(const Clip& reduced, const Clip& original, const JointRoles& roles) {
+  POISE_RETURN_IF_ERROR(roles.RequireComplete());
+  const Skeleton& skeleton = *original.skeleton();
+  POISE_ASSIGN_OR_RETURN(const auto parents, KeptParents(skeleton, roles));
+  if (reduced.num_frames() != original.num_frames() || reduced.num_joints() != kNumRequiredRoles) {
+    return base::InvalidArgument(
+        "WRONG_SHAPE", "clip",
+        fmt::format("clip '{}' has {} frames of {} joints, expected {} of {}", reduced.name(),
+                    reduced.num_frames(), reduced.num_joints(), original.num_frames(),
+                    kNumRequiredRoles));
+  }
+  Clip clip = original;
+  WorldPoses world;
+  const int pelvis = roles.joint(kPelvis);
+  for (int frame = 0; frame < clip.num_frames(); ++frame) {
+    for (int i = 0; i < kNumRequiredRoles; ++i) {
+      const int joint = roles.joint(static_cast<JointRole>(i));
+      const int kept = parents[i] < 0 ? -1 : roles.joint(static_cast<JointRole>(parents[i]));
+      Quat between = Quat::Identity();
+      for (int up = skeleton.parent(joint); up != kept; up = skeleton.parent(up)) {
+        between = clip.rotation(frame, up) * between;
+      }
+      clip.rotation(frame, joint) = between.conjugate() * reduced.rotation(frame, i);
+    }
+    clip.root_position(frame) = reduced.root_position(frame);
+    if (skeleton.parent(pelvis) < 0) continue;
+    ForwardKinematics(clip, frame, 1, world);
+    clip.root_position(frame) += reduced.root_position(frame) - world.position(0, pelvis);
+  }
+  return clip;
+}
+
 }  // namespace poise::motion

@@ -20,6 +20,15 @@ enum class ReductionMode {
 /// UNUSUAL_HIERARCHY (a role's joint hangs below that of a later role).
 StatusOr<Clip> ReduceToRoles(const Clip& clip, const JointRoles& roles, ReductionMode mode);
 
+/// The roles of a reduced skeleton, whatever its joints are called: joint i plays role i.
+/// Errors: kInvalidArgument UNKNOWN_JOINT (not 16 joints).
+StatusOr<JointRoles> ReducedRoles(const Skeleton& reduced);
+
+/// The way back: `original` moved so that its 16 joints have the world rotations, and its pelvis
+/// the positions, of `reduced` (composed from it, and edited since). Joints left out keep their own
+/// rotations. Errors: as ReduceToRoles, and kInvalidArgument WRONG_SHAPE (other frames or joints).
+StatusOr<Clip> ExpandFromRoles(const Clip& reduced, const Clip& original, const JointRoles& roles);
+
 }  // namespace poise::motion
 
 #endif  // POISE_CORE_MOTION_EDITING_REDUCE_H_

@@ -70,16 +70,13 @@ double FootSkate(const std::vector<SolePoint>& points, double floor, double cont
   return weights > 0 ? sum / weights : 0;
 }
 
-}  // namespace
-
-FloorContact MeasureFloorContact(const PlacedBodies& bodies, double frame_rate,
-                                 const PlausibilityConfig& config) {
-  const std::vector<SolePoint> points = LowestSolePoints(bodies, frame_rate);
+FloorContact Against(const PlacedBodies& bodies, const std::vector<SolePoint>& points,
+                     double floor_height_m, const PlausibilityConfig& config) {
   FloorContact contact;
-  contact.floor_height_m = EstimateFloor(points, config);
-  contact.foot_skate_mps = FootSkate(points, contact.floor_height_m, config.contact_height_m);
+  contact.floor_height_m = floor_height_m;
+  contact.foot_skate_mps = FootSkate(points, floor_height_m, config.contact_height_m);
   for (const double lowest : bodies.lowest) {
-    const double depth = contact.floor_height_m - lowest;
+    const double depth = floor_height_m - lowest;
     contact.penetration_mean_m += std::max(depth, 0.0);
     contact.penetration_max_m = std::max(contact.penetration_max_m, depth);
     contact.float_mean_m += std::max(-depth, 0.0);
@@ -87,6 +84,19 @@ FloorContact MeasureFloorContact(const PlacedBodies& bodies, double frame_rate,
   contact.penetration_mean_m /= bodies.num_frames;
   contact.float_mean_m /= bodies.num_frames;
   return contact;
+}
+
+}  // namespace
+
+FloorContact MeasureFloorContact(const PlacedBodies& bodies, double frame_rate,
+                                 const PlausibilityConfig& config) {
+  const std::vector<SolePoint> points = LowestSolePoints(bodies, frame_rate);
+  return Against(bodies, points, EstimateFloor(points, config), config);
+}
+
+FloorContact MeasureContactWithFloor(const PlacedBodies& bodies, double frame_rate,
+                                     double floor_height_m, const PlausibilityConfig& config) {
+  return Against(bodies, LowestSolePoints(bodies, frame_rate), floor_height_m, config);
 }
 
 }  // namespace poise::motion

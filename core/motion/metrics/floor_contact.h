@@ -27,6 +27,10 @@ struct FloorContact {
 FloorContact MeasureFloorContact(const PlacedBodies& bodies, double frame_rate,
                                  const PlausibilityConfig& config);
 
+/// The same against a floor at a known height.
+FloorContact MeasureContactWithFloor(const PlacedBodies& bodies, double frame_rate,
+                                     double floor_height_m, const PlausibilityConfig& config);
+
 }  // namespace poise::motion
 
 #endif  // POISE_CORE_MOTION_METRICS_FLOOR_CONTACT_H_

@@ -25,6 +25,30 @@ struct Workspace {
   }
 };
 
+Status Check(const Clip& clip, const PlausibilityConfig& config) {
+  POISE_RETURN_IF_ERROR(base::CheckRanges(PlausibilityConfig(config).Fields()));
+  if (clip.num_frames() >= kFewestFrames) return absl::OkStatus();
+  return base::FailedPrecondition(
+      "CLIP_TOO_SHORT", "clip",
+      fmt::format("clip '{}' has {} frames, plausibility needs at least {}", clip.name(),
+                  clip.num_frames(), kFewestFrames));
+}
+
+// From the bodies placed in the workspace, which it trims.
+Plausibility Assess(const BodyShapes& shapes, const FloorContact& contact, double frame_rate,
+                    Workspace& workspace) {
+  Plausibility plausibility;
+  plausibility.foot_skate_mps = contact.foot_skate_mps;
+  plausibility.penetration_mean_m = contact.penetration_mean_m;
+  plausibility.penetration_max_m = contact.penetration_max_m;
+  plausibility.float_mean_m = contact.float_mean_m;
+  plausibility.self_penetration_max_m = WorstSelfPenetration(shapes, workspace.bodies);
+  plausibility.acceleration_rms_mps2 = AccelerationRms(workspace.world, frame_rate);
+  plausibility.jerk_rms_mps3 = JerkRms(workspace.world, frame_rate);
+  workspace.Trim();
+  return plausibility;
+}
+
 }  // namespace
 
 std::vector<base::Field> PlausibilityConfig::Fields() {
@@ -45,34 +69,27 @@ base::Json ToJson(const Plausibility& plausibility) {
 
 StatusOr<Plausibility> AssessPlausibility(const Clip& clip, const JointRoles& roles,
                                           const PlausibilityConfig& config) {
-  POISE_RETURN_IF_ERROR(base::CheckRanges(PlausibilityConfig(config).Fields()));
   POISE_RETURN_IF_ERROR(roles.RequireComplete());
-  if (clip.num_frames() < kFewestFrames) {
-    return base::FailedPrecondition(
-        "CLIP_TOO_SHORT", "clip",
-        fmt::format("clip '{}' has {} frames, plausibility needs at least {}", clip.name(),
-                    clip.num_frames(), kFewestFrames));
-  }
+  POISE_RETURN_IF_ERROR(Check(clip, config));
   thread_local Workspace workspace;
-  WorldPoses& world = workspace.world;
-  PlacedBodies& bodies = workspace.bodies;
-  ForwardKinematics(clip, 0, clip.num_frames(), world);
+  ForwardKinematics(clip, 0, clip.num_frames(), workspace.world);
   const Skeleton& skeleton = *clip.skeleton();
-  POISE_ASSIGN_OR_RETURN(const BodyShapes shapes,
-                         MakeBodyShapes(skeleton, roles, EstimateSoles(skeleton, roles, world)));
-  PlaceBodies(shapes, world, bodies);
-  const FloorContact contact = MeasureFloorContact(bodies, clip.frame_rate(), config);
+  const Soles soles = EstimateSoles(skeleton, roles, workspace.world);
+  POISE_ASSIGN_OR_RETURN(const BodyShapes shapes, MakeBodyShapes(skeleton, roles, soles));
+  PlaceBodies(shapes, workspace.world, workspace.bodies);
+  return Assess(shapes, MeasureFloorContact(workspace.bodies, clip.frame_rate(), config),
+                clip.frame_rate(), workspace);
+}
 
-  Plausibility plausibility;
-  plausibility.foot_skate_mps = contact.foot_skate_mps;
-  plausibility.penetration_mean_m = contact.penetration_mean_m;
-  plausibility.penetration_max_m = contact.penetration_max_m;
-  plausibility.float_mean_m = contact.float_mean_m;
-  plausibility.self_penetration_max_m = WorstSelfPenetration(shapes, bodies);
-  plausibility.acceleration_rms_mps2 = AccelerationRms(world, clip.frame_rate());
-  plausibility.jerk_rms_mps3 = JerkRms(world, clip.frame_rate());
-  workspace.Trim();
-  return plausibility;
+StatusOr<Plausibility> AssessPlausibility(const Clip& clip, const BodyShapes& shapes,
+                                          double floor_height_m, const PlausibilityConfig& config) {
+  POISE_RETURN_IF_ERROR(Check(clip, config));
+  thread_local Workspace workspace;
+  ForwardKinematics(clip, 0, clip.num_frames(), workspace.world);
+  PlaceBodies(shapes, workspace.world, workspace.bodies);
+  return Assess(
+      shapes, MeasureContactWithFloor(workspace.bodies, clip.frame_rate(), floor_height_m, config),
+      clip.frame_rate(), workspace);
 }
 
 }  // namespace poise::motion

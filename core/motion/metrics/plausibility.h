@@ -6,6 +6,7 @@
 #include "core/base/config_fields.h"
 #include "core/base/json.h"
 #include "core/base/status.h"
+#include "core/motion/body_shapes.h"
 #include "core/motion/clip.h"
 #include "core/motion/joint_roles.h"
 
@@ -41,6 +42,13 @@ struct PlausibilityConfig {
 /// Errors: kFailedPrecondition MISSING_ROLES; CLIP_TOO_SHORT (fewer than 4 frames);
 /// kInvalidArgument CONFIG_VALUE_OUT_OF_RANGE.
 StatusOr<Plausibility> AssessPlausibility(const Clip& clip, const JointRoles& roles,
+                                          const PlausibilityConfig& config = {});
+
+/// The same with given bodies and a known floor, so that a motion and its correction are held
+/// against the same boxes. The shapes' joints are the clip's.
+/// Errors: CLIP_TOO_SHORT, CONFIG_VALUE_OUT_OF_RANGE.
+StatusOr<Plausibility> AssessPlausibility(const Clip& clip, const BodyShapes& shapes,
+                                          double floor_height_m,
                                           const PlausibilityConfig& config = {});
 
 }  // namespace poise::motion

@@ -47,6 +47,27 @@ TEST(ReferenceMotionTest, StandsOnTheFloorAndHoldsItsEnd) {
   EXPECT_TRUE(clip.reference.AccelerationAt(99).isZero());
 }
 
+TEST(ReferenceMotionTest, LeadsPastAJointThatFlipsAndComesBack) {
+  const TrackedClip clip = Prepare(testing::SwingingClip(200));
+  motion::Clip flipped = clip.reference.clip();
+  const int knee = 5;
+  for (int frame = 80; frame < 90; ++frame) {
+    flipped.rotation(frame, knee) =
+        flipped.rotation(frame, knee) * math::FromRotationVector(Vec3(0, 2.8, 0));
+  }
+  const ReferenceMotion repaired = *ReferenceMotion::Create(flipped, *clip.model);
+  ReferenceConfig as_it_is;
+  as_it_is.flip_longest_s = 0;
+  const ReferenceMotion kept = *ReferenceMotion::Create(flipped, *clip.model, as_it_is);
+  const auto off = [&](const ReferenceMotion& motion) {
+    return math::GeodesicDistance(motion.frame(85).rotations[knee],
+                                  clip.reference.frame(85).rotations[knee]);
+  };
+  EXPECT_LT(off(repaired), 0.05);
+  EXPECT_GT(off(kept), 2.7);
+  EXPECT_EQ(repaired.clip().rotation(85, knee).coeffs(), flipped.rotation(85, knee).coeffs());
+}
+
 TEST(ReferenceMotionTest, RefusesClipsThatAreTooShortOrOfOtherJoints) {
   const TrackedClip clip = Prepare(SwayingClip(1));
   const auto other = ReferenceMotion::Create(testing::SwingingClip(20), *clip.model);

@@ -92,5 +92,29 @@ TEST_F(ReduceTest, MissingRolesAndTangledHierarchiesAreRefused) {
             "UNUSUAL_HIERARCHY");
 }
 
+TEST_F(ReduceTest, ExpandingAnEditedReductionGivesItsWorldRotationsBack) {
+  Clip edited = *ReduceToRoles(clip_, roles_, ReductionMode::kComposed);
+  EXPECT_LT((ForwardKinematics(*ExpandFromRoles(edited, clip_, roles_)).position(7, 5) -
+             ForwardKinematics(clip_).position(7, 5))
+                .norm(),
+            1e-9);
+  for (int frame = 0; frame < edited.num_frames(); ++frame) {
+    edited.root_position(frame) += Vec3(0.1, 0, 0.2);
+    for (int i = 0; i < kNumRequiredRoles; ++i) {
+      edited.rotation(frame, i) =
+          edited.rotation(frame, i) * math::FromRotationVector(Vec3(0.02 * i, 0.1, -0.05));
+    }
+  }
+  const Clip expanded = *ExpandFromRoles(edited, clip_, roles_);
+  const Clip again = *ReduceToRoles(expanded, roles_, ReductionMode::kComposed);
+  for (int frame = 0; frame < edited.num_frames(); ++frame) {
+    EXPECT_LT((again.root_position(frame) - edited.root_position(frame)).norm(), 1e-9);
+    for (int i = 0; i < kNumRequiredRoles; ++i) {
+      EXPECT_LT(math::GeodesicDistance(again.rotation(frame, i), edited.rotation(frame, i)), 1e-7);
+    }
+  }
+  EXPECT_EQ(base::ErrorReason(ExpandFromRoles(clip_, clip_, roles_).status()), "WRONG_SHAPE");
+}
+
 }  // namespace
 }  // namespace poise::motion

@@ -4,6 +4,8 @@
 
 #include <functional>
 
+#include "core/motion/kinematics/sole_estimate.h"
+#include "core/motion/metrics/placed_bodies.h"
 #include "tests/support/test_clips.h"
 
 namespace poise::motion {
@@ -32,6 +34,24 @@ TEST(PlausibilityTest, ABodyThatStandsStillHasNoFaults) {
   EXPECT_EQ(result.self_penetration_max_m, 0);
   EXPECT_NEAR(result.acceleration_rms_mps2, 0, 1e-9);
   EXPECT_NEAR(result.jerk_rms_mps3, 0, 1e-6);
+}
+
+TEST(PlausibilityTest, AKnownFloorIsNotEstimated) {
+  const Clip clip = Carried(60, 120, [](int) { return Vec3(3, 0.7, -2); });
+  const JointRoles roles = *JointRoles::Detect(*clip.skeleton());
+  const WorldPoses world = ForwardKinematics(clip);
+  const BodyShapes shapes =
+      *MakeBodyShapes(*clip.skeleton(), roles, EstimateSoles(*clip.skeleton(), roles, world));
+  PlacedBodies bodies;
+  PlaceBodies(shapes, world, bodies);
+  const double lowest = bodies.lowest[0];
+  const Plausibility below = *AssessPlausibility(clip, shapes, lowest + 0.05);
+  EXPECT_NEAR(below.penetration_mean_m, 0.05, 1e-12);
+  EXPECT_NEAR(below.penetration_max_m, 0.05, 1e-12);
+  EXPECT_EQ(below.float_mean_m, 0);
+  const Plausibility above = *AssessPlausibility(clip, shapes, lowest - 0.03);
+  EXPECT_NEAR(above.float_mean_m, 0.03, 1e-12);
+  EXPECT_EQ(above.penetration_max_m, 0);
 }
 
 TEST(PlausibilityTest, ABodyThatSlidesAtOneMetrePerSecondSkatesAtThatSpeed) {

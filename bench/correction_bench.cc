@@ -1,0 +1,127 @@
+#include <time.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/benchmark.h"
+#include "core/correction/corrector.h"
+#include "core/motion/io/clip_file.h"
+
+/// What a correction without learning reaches on real clips (HDM05 below POISE_DATA_DIR), beside
+/// the zero policy of the paper. The controller's constants were chosen on actors bd and bk; dg, mm
+/// and tr are held out. Nothing is measured where the data is missing.
+namespace poise::bench {
+namespace {
+
+using correction::Correction;
+using correction::CorrectionConfig;
+using correction::Corrector;
+
+const char* const kClasses[] = {"kickLFront1Reps", "jogLeftCircle4StepsRstart", "grabHighR",
+                                "depositFloorR",   "sneak2StepsLStart",         "throwBasketball",
+                                "hopBothLegs1hops"};
+
+struct Actors {
+  const char* name;
+  std::vector<std::string> codes;
+};
+const Actors kActors[] = {{"bd_bk", {"bd", "bk"}}, {"held_out", {"dg", "mm", "tr"}}};
+
+struct Sum {
+  int clips = 0, completed = 0;
+  // Means over clips, until Finish sums; a clip that diverged counts as 0 reward.
+  double reward = 0, force = 0, force_peak = 0, torque = 0;
+  double skate_before = 0, skate_after = 0, penetration_after = 0;
+  double seconds = 0;
+
+  void Add(const Correction& correction) {
+    completed += correction.score.completed;
+    reward += correction.score.reward_normalised;
+    force += correction.score.residual_force_mean_bw;
+    force_peak += correction.score.residual_force_peak_bw;
+    torque += correction.score.residual_torque_mean_nm;
+    skate_before += correction.before.foot_skate_mps;
+    skate_after += correction.after.foot_skate_mps;
+    penetration_after += correction.after.penetration_mean_m;
+  }
+  void Finish() {
+    for (double* mean : {&reward, &force, &force_peak, &torque, &skate_before, &skate_after,
+                         &penetration_after, &seconds}) {
+      *mean /= std::max(clips, 1);
+    }
+  }
+};
+
+double ThreadSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// HDM_bd_kick...: the two letters after the first underscore.
+bool IsOf(const Actors& actors, const std::filesystem::path& file) {
+  const std::string code = file.filename().string().substr(4, 2);
+  return std::find(actors.codes.begin(), actors.codes.end(), code) != actors.codes.end();
+}
+
+Sum CorrectAll(const std::filesystem::path& folder, const Actors& actors,
+               const CorrectionConfig& config) {
+  Sum sum;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".amc" || !IsOf(actors, entry.path())) continue;
+    const auto file = motion::ReadClipFile(entry.path());
+    if (!file.ok()) continue;
+    const motion::JointRoles roles = *motion::JointRoles::Detect(*file->clip.skeleton());
+    const double start = ThreadSeconds();
+    const auto corrector = Corrector::Create(file->clip, roles, config);
+    const auto correction = corrector->Correct(file->clip);
+    sum.seconds += ThreadSeconds() - start;
+    ++sum.clips;
+    if (correction.ok()) sum.Add(*correction);
+  }
+  sum.Finish();
+  return sum;
+}
+
+void AddRows(const std::string& name, const Sum& ours, const Sum& zero, std::vector<Row>& rows) {
+  const auto add = [&](const std::string& what, double value, const std::string& unit,
+                       const std::string& peer, double ratio) {
+    rows.push_back({"correction/" + name + "/" + what, value, unit, peer, ratio, 1});
+  };
+  const std::string peer = "zero policy of the paper";
+  add("completed", 100.0 * ours.completed / ours.clips, "% of " + std::to_string(ours.clips), peer,
+      static_cast<double>(ours.completed) / std::max(zero.completed, 1));
+  add("reward_normalised", 1000 * ours.reward, "/ 1000", peer, ours.reward / zero.reward);
+  add("residual_force_mean", 1000 * ours.force, "bw / 1000", peer, zero.force / ours.force);
+  add("residual_force_peak", 1000 * ours.force_peak, "bw / 1000", peer,
+      zero.force_peak / ours.force_peak);
+  add("residual_torque_mean", ours.torque, "N m", peer, zero.torque / ours.torque);
+  add("skating", 1000 * ours.skate_after, "mm/s", "the clip itself",
+      ours.skate_before / ours.skate_after);
+  add("penetration_mean", 1000 * ours.penetration_after, "mm", "0.5 mm allowed",
+      0.0005 / ours.penetration_after);
+  add("time", 1000 * ours.seconds, "ms/clip", "1 s allowed", 1 / ours.seconds);
+}
+
+}  // namespace
+
+std::vector<Row> RunCorrectionBenchmark() {
+  std::vector<Row> rows;
+  const char* data = std::getenv("POISE_DATA_DIR");
+  if (data == nullptr) return rows;
+  const CorrectionConfig paper = *CorrectionConfig::FromPreset("paper");
+  for (const char* name : kClasses) {
+    const std::filesystem::path folder = std::filesystem::path(data) / "hdm05" / name;
+    if (!std::filesystem::exists(folder)) continue;
+    for (const Actors& actors : kActors) {
+      AddRows(std::string(name) + "/" + actors.name, CorrectAll(folder, actors, {}),
+              CorrectAll(folder, actors, paper), rows);
+    }
+  }
+  return rows;
+}
+
+}  // namespace poise::bench

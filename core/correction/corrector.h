@@ -1,0 +1,58 @@
+#ifndef POISE_CORE_CORRECTION_CORRECTOR_H_
+#define POISE_CORE_CORRECTION_CORRECTOR_H_
+
+#include "core/base/run_context.h"
+#include "core/correction/correction_config.h"
+#include "core/correction/tracking/motion_tracker.h"
+#include "core/motion/metrics/plausibility.h"
+
+namespace poise::correction {
+
+/// A motion after a simulated body has imitated it.
+struct Correction {
+  /// What the body did, on the skeleton of the variant, frame by frame; joints that the character
+  /// lacks (toes, fingers) keep their rotations. Stands on the floor y = 0.
+  motion::Clip clip;
+  TrackingScore score;
+  /// Both by the character's own bodies, against the floor that it stands on.
+  motion::Plausibility before, after;
+};
+
+/// Makes variants of one clip physically plausible by imitation: reduces them to the character's
+/// joints, puts them on the floor, lets the character imitate them without learning, and measures.
+/// The character is that of the source clip: its bone lengths, and its soles where they stand.
+/// Threads: Correct may be called from several threads; each call has its own world.
+class Corrector {
+ public:
+  /// Errors: kFailedPrecondition MISSING_ROLES, UNUSUAL_HIERARCHY; kInvalidArgument
+  /// CONFIG_VALUE_OUT_OF_RANGE.
+  static StatusOr<Corrector> Create(const motion::Clip& source, const motion::JointRoles& roles,
+                                    const CorrectionConfig& config = {});
+
+  /// `variant` has the source's skeleton. A motion that could not be completed is a result, with
+  /// score.completed false; its clip shows the fall.
+  /// Errors: kInvalidArgument WRONG_SKELETON; kFailedPrecondition CLIP_TOO_SHORT; kOutOfRange
+  /// DIVERGED; kCancelled, kDeadlineExceeded of `context`.
+  StatusOr<Correction> Correct(const motion::Clip& variant,
+                               const base::RunContext& context = {}) const;
+
+  const physics::HumanoidModel& model() const { return *model_; }
+  const CorrectionConfig& config() const { return config_; }
+
+ private:
+  Corrector(motion::SkeletonPtr skeleton, motion::JointRoles roles, physics::HumanoidModelPtr model,
+            const CorrectionConfig& config)
+      : skeleton_(std::move(skeleton)),
+        roles_(std::move(roles)),
+        model_(std::move(model)),
+        config_(config) {}
+
+  motion::SkeletonPtr skeleton_;
+  motion::JointRoles roles_;
+  physics::HumanoidModelPtr model_;  // on the reduced skeleton
+  CorrectionConfig config_;
+};
+
+}  // namespace poise::correction
+
+#endif  // POISE_CORE_CORRECTION_CORRECTOR_H_

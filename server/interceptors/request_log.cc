@@ -39,7 +39,7 @@ class RequestLog : public grpc::experimental::Interceptor {
         .histogram("poise_request_seconds", "Time from a call's start to its end",
                    {{"method", CounterLabel(method_)}})
         .Observe(seconds);
-    Log(level::info, "request",
+    Log(LogLevel(), "request",
         {{"method", method_},
          {"code", code_},
          {"message", message_},
@@ -63,6 +63,12 @@ class RequestLog : public grpc::experimental::Interceptor {
   }
 
  private:
+  // Workers are heard of all day; only what went wrong is news.
+  level::level_enum LogLevel() const {
+    const bool routine = code_ == "OK" && method_.starts_with("/poise.v1.WorkerService/");
+    return routine ? level::debug : level::info;
+  }
+
   const std::string method_;
   const std::string peer_;
   base::Telemetry& telemetry_;

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <random>
 #include <set>
 #include <thread>
 
 #include "absl/time/clock.h"
+#include "core/base/identifier.h"
 #include "tests/support/fake_worker.h"
 #include "tests/support/job_client.h"
 #include "tests/support/test_server.h"
@@ -211,6 +213,52 @@ TEST(WorkerServiceTest, HoldEndsBeforeTheLeaseAndTakesItFurther) {
     EXPECT_GE(absl::Now() - begin, absl::Milliseconds(290));
   }
   EXPECT_EQ(worker.Finish(lease)->state(), v1::Job::SUCCEEDED);
+}
+
+// Asks with one token and short deadlines until there is an answer, as a worker on a bad network. A
+// slow machine gets there too: the deadlines grow.
+v1::Lease LeaseOverABadNetwork(const FakeWorker& worker, const std::string& name,
+                               std::mt19937& random) {
+  v1::LeaseJobRequest request;
+  request.set_worker(name);
+  request.set_token(base::RandomHex(16));
+  request.mutable_wait()->set_seconds(10);
+  for (int tries = 0;; ++tries) {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() +
+                         std::chrono::microseconds(500 + random() % 6000) * (1 + tries / 20));
+    v1::LeaseJobResponse response;
+    const grpc::Status status = worker.stub().LeaseJob(&context, request, &response);
+    if (status.ok() && response.has_lease()) return response.lease();
+  }
+}
+
+TEST(WorkerServiceTest, LongPollsThatBreakOffLoseNoJobAndTakeNoneTwice) {
+  TestServer server;
+  constexpr int kWorkers = 6, kJobsEach = 25;
+  std::vector<std::thread> workers;
+  for (unsigned i = 0; i < kWorkers; ++i) {
+    workers.emplace_back([&, i] {
+      const std::string name = "worker-" + std::to_string(i);
+      const FakeWorker worker(server.NewChannel(), name);
+      std::mt19937 random(i);
+      for (int k = 0; k < kJobsEach; ++k) {
+        const v1::Lease lease = LeaseOverABadNetwork(worker, name, random);
+        EXPECT_EQ(worker.Finish(lease)->state(), v1::Job::SUCCEEDED);
+      }
+    });
+  }
+  const JobClient client(server.channel());
+  for (int i = 0; i < kWorkers * kJobsEach; ++i) ASSERT_TRUE(client.Create(SelftestRequest()).ok());
+  for (std::thread& worker : workers) worker.join();
+  v1::ListJobsRequest list;
+  list.set_page_size(1000);
+  const v1::ListJobsResponse page = *client.List(list);
+  ASSERT_EQ(page.jobs_size(), kWorkers * kJobsEach);
+  for (const v1::Job& job : page.jobs()) {
+    EXPECT_EQ(job.state(), v1::Job::SUCCEEDED);
+    EXPECT_EQ(job.attempt(), 1);  // the answer that was lost came again
+  }
 }
 
 TEST(WorkerServiceTest, DrainSendsWaitingWorkersAwayAndLeasesNothing) {

@@ -30,11 +30,13 @@ std::string ReadLine(int descriptor) {
 }  // namespace
 
 ServerProcess::ServerProcess(const std::vector<std::string>& flags) {
-  std::vector<std::string> words = {POISE_POISED_PROGRAM, "--data-dir",
-                                    (folder_.path() / "data").string()};
-  if (std::find(flags.begin(), flags.end(), "--listen") == flags.end()) {
-    words.insert(words.end(), {"--listen", "127.0.0.1:0"});
-  }
+  std::vector<std::string> words = {POISE_POISED_PROGRAM};
+  const auto set_unless_given = [&](const std::string& flag, const std::string& value) {
+    if (std::find(flags.begin(), flags.end(), flag) != flags.end()) return;
+    words.insert(words.end(), {flag, value});
+  };
+  set_unless_given("--data-dir", (folder_.path() / "data").string());
+  set_unless_given("--listen", "127.0.0.1:0");
   words.insert(words.end(), flags.begin(), flags.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

@@ -14,7 +14,7 @@
 
 namespace poise::testing {
 
-/// A real poised on a free port (unless the flags name one), with a data folder of its own; killed
+/// A real poised on a free port, with a data folder of its own, unless the flags name one; killed
 /// at the end if it still runs.
 class ServerProcess {
  public:

@@ -87,7 +87,7 @@ TEST_F(WorkerFailureTest, KilledWorkerTakesItsChildrenAlongAndAnotherGoesOn) {
   StartServer();
   auto undisturbed_worker = StartWorker();
   const base::Json parameters = {
-      {"steps", 200}, {"step_ms", 10}, {"checkpoint_every", 10}, {"artifacts", 2}};
+      {"steps", 400}, {"step_ms", 10}, {"checkpoint_every", 10}, {"artifacts", 2}};
   const v1::Job undisturbed = WaitForEnd(Submit(parameters));
   undisturbed_worker.reset();
   const auto first = StartWorker();

@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "absl/time/clock.h"
 #include "tests/integration/worker_fixture.h"
 
@@ -38,6 +41,25 @@ TEST_F(WorkerRunTest, JobsRunToTheirResultsOnAllSlots) {
     EXPECT_EQ(Artifacts(job).at("manifest.json"), Artifacts(Get(names[0])).at("manifest.json"));
   }
   EXPECT_TRUE(Eventually([&] { return !worker->HasChildren(); }, absl::Seconds(5)));
+}
+
+TEST_F(WorkerRunTest, ChildStartsOnceWithWhatLibTorchNeedsAndWithoutTheToken) {
+  StartServer(ShortLeases(), {{"POISE_TOKEN", ""}});
+  const auto worker = StartWorker({}, {{"POISE_TOKEN", "unused"}});
+  const std::string name = Submit({{"steps", 1'000'000}});
+  WaitForStep(name, 3);
+  ASSERT_EQ(worker->Children().size(), 1u);
+  std::ifstream file("/proc/" + std::to_string(worker->Children()[0]) + "/environ");
+  std::vector<std::string> variables;
+  for (std::string variable; std::getline(file, variable, '\0');) variables.push_back(variable);
+  const auto count = [&](const std::string& prefix) {
+    return std::count_if(variables.begin(), variables.end(),
+                         [&](const std::string& text) { return text.starts_with(prefix); });
+  };
+  // The worker itself was started again with these; with them a program does not start twice.
+  EXPECT_EQ(count("OPENBLAS_CORETYPE="), 1);
+  EXPECT_EQ(count("OMP_WAIT_POLICY="), 1);
+  EXPECT_EQ(count("POISE_TOKEN="), 0);
 }
 
 TEST_F(WorkerRunTest, CancelEndsTheChildWithinTwoSeconds) {

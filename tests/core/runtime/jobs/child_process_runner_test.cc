@@ -138,17 +138,17 @@ TEST(ChildProcessRunnerTest, SlowSteadyWorkIsNotStalled) {
 }
 
 TEST(ChildProcessRunnerTest, AskedToStopTheChildSavesItsStateAndTheNextOneGoesOn) {
-  AttemptFolder job(Selftest({{"steps", 60}, {"step_ms", 5}}));
+  AttemptFolder job(Selftest({{"steps", 400}, {"step_ms", 5}}));
   job.on_progress = [&](const base::Progress& value) {
     if (value.step >= 10) job.context.run.cancellation.Cancel();
   };
   EXPECT_EQ(RunIn(job, Config(), "poise-obeys").status().code(), absl::StatusCode::kCancelled);
   EXPECT_GE(job.input.checkpoint_step, 10);
-  EXPECT_LT(job.input.checkpoint_step, 60);
+  EXPECT_LT(job.input.checkpoint_step, 400);
   job.on_progress = nullptr;
   job.context.run.cancellation = base::CancellationToken();
   ChildProcessRunner child(Config());
-  AttemptFolder undisturbed(Selftest({{"steps", 60}, {"step_ms", 0}}));
+  AttemptFolder undisturbed(Selftest({{"steps", 400}, {"step_ms", 0}}));
   EXPECT_EQ(AttemptFolder::Contents(*job.Run(child)),
             AttemptFolder::Contents(*undisturbed.Run(child)));
 }
@@ -192,7 +192,11 @@ TEST(ChildProcessRunnerTest, KilledAtAnyStepItResumesToTheSameBytes) {
   ChildProcessRunner child(Config());
   const auto files = AttemptFolder::Contents(*undisturbed.Run(child));
   for (const int kill_at : {3, 22, 41, 67, 96}) {
-    AttemptFolder job(Selftest({{"steps", 100}, {"checkpoint_every", 4}}));
+    AttemptFolder job(Selftest({{"steps", 100},
+                                {"checkpoint_every", 4},
+                                {"fail_at", kill_at},
+                                {"failure", "hang"},
+                                {"fail_attempts", 1}}));
     job.on_progress = [&](const base::Progress& value) {
       if (value.step < kill_at) return;
       for (const pid_t pid : ProcessesWith("poise-killed")) kill(pid, SIGKILL);

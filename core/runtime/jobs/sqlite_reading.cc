@@ -41,6 +41,30 @@ Status ReadValues(const Query& row, Job& job) {
   return ReadOptional(row, 17, ParseArtifacts, job.artifacts);
 }
 
+// What needs no parsing.
+Job ReadColumns(const Query& row) {
+  return Job{.id = row.Text(0),
+             .tenant = row.Text(1),
+             .spec = {.kind = row.Text(3)},
+             .request_id = row.Text(5),
+             .queue = row.Text(6),
+             .priority = static_cast<int>(row.Int(7)),
+             .seed = std::bit_cast<uint64_t>(row.Int(8)),
+             .attempt = static_cast<int>(row.Int(11)),
+             .errors = static_cast<int>(row.Int(12)),
+             .losses = static_cast<int>(row.Int(13)),
+             .event_seq = row.Int(18),
+             .create_time = row.Time(19),
+             .start_time = row.Time(20),
+             .end_time = row.Time(21),
+             .expire_time = row.Time(22),
+             .next_attempt_time = row.Time(23),
+             .retry_of = row.Text(24),
+             .trace_id = row.Text(25),
+             .cancel_requested_by = row.OptionalText(26).value_or(""),
+             .worker = row.Text(27)};
+}
+
 StatusOr<std::vector<JobAttempt>> LoadAttempts(Connection& db, int64_t number) {
   std::vector<JobAttempt> attempts;
   Query row = db.Prepare(
@@ -88,26 +112,7 @@ StatusOr<JobEvent> ReadEvent(const Query& row) {
 }  // namespace
 
 StatusOr<Job> ReadJob(const Query& row) {
-  Job job{.id = row.Text(0),
-          .tenant = row.Text(1),
-          .spec = {.kind = row.Text(3)},
-          .request_id = row.Text(5),
-          .queue = row.Text(6),
-          .priority = static_cast<int>(row.Int(7)),
-          .seed = std::bit_cast<uint64_t>(row.Int(8)),
-          .attempt = static_cast<int>(row.Int(11)),
-          .errors = static_cast<int>(row.Int(12)),
-          .losses = static_cast<int>(row.Int(13)),
-          .event_seq = row.Int(18),
-          .create_time = row.Time(19),
-          .start_time = row.Time(20),
-          .end_time = row.Time(21),
-          .expire_time = row.Time(22),
-          .next_attempt_time = row.Time(23),
-          .retry_of = row.Text(24),
-          .trace_id = row.Text(25),
-          .cancel_requested_by = row.OptionalText(26).value_or(""),
-          .worker = row.Text(27)};
+  Job job = ReadColumns(row);
   POISE_RETURN_IF_ERROR(ReadValues(row, job));
   if (job.state == JobState::kRunning && !row.IsNull(26)) job.state = JobState::kCancelling;
   return job;

@@ -7,7 +7,7 @@
 
 #include "bench/bench_clip.h"
 #include "bench/benchmark.h"
-#include "core/motion/editing/reduce.h"
+#include "core/correction/reward.h"
 #include "core/physics/bullet_engine.h"
 #include "core/physics/world.h"
 #ifdef POISE_HAVE_MUJOCO
@@ -15,8 +15,8 @@
 #endif
 
 /// How many control steps of 1/30 s one thread simulates in a second: the humanoid with 51 degrees
-/// of freedom tracks swinging targets with its residual wrench, is read out after each step, and
-/// starts anew every 60 steps, so that it stands, staggers and lies.
+/// of freedom tracks swinging targets with its residual wrench, gets its reward after each step,
+/// and starts anew every 60 steps, so that it stands, staggers and lies.
 namespace poise::bench {
 namespace {
 
@@ -65,13 +65,16 @@ class TrackedWorld {
     if (step_ % kStepsPerRun == 0) world_.Reset(Start());
     const physics::Drive drive = DriveAt(model_, step_++ % kStepsPerRun);
     for (int update = 0; update < kUpdatesPerControlStep; ++update) world_.Step(drive);
-    const auto frames = physics::ComputeFrames(model_.articulation(), world_.state());
-    if (!std::isfinite(frames.positions[9].sum())) std::abort();
+    const correction::Reward reward = correction::ComputeReward(
+        model_, {}, correction::ComputeFeatures(model_, world_.state()), wanted_,
+        world_.effort().residual_force, world_.effort().residual_torque);
+    if (!std::isfinite(reward.total)) std::abort();
   }
 
  private:
   const physics::HumanoidModel& model_;
   physics::World world_;
+  correction::Features wanted_ = correction::ComputeFeatures(model_, Start());
   int step_ = 0;
 };
 

@@ -33,7 +33,10 @@ StatusOr<Correction> Corrector::Correct(const motion::Clip& variant,
   POISE_ASSIGN_OR_RETURN(MotionTracker tracker,
                          MotionTracker::Create(model_, config_.world, reference.frame_rate(),
                                                config_.tracking, config_.reward));
-  POISE_ASSIGN_OR_RETURN(const Recording recording, tracker.Track(reference, context));
+  LearningConfig learning = config_.learning;
+  if (config_.effort == "instant") learning.rollouts = 1;
+  POISE_ASSIGN_OR_RETURN(Learned learned, LearnIteratively(tracker, reference, learning, context));
+  const Recording& recording = learned.best;
   POISE_ASSIGN_OR_RETURN(
       const motion::Plausibility before,
       motion::AssessPlausibility(reference.clip(), model_->shapes(), /*floor_height_m=*/0));
@@ -42,8 +45,12 @@ StatusOr<Correction> Corrector::Correct(const motion::Clip& variant,
       motion::AssessPlausibility(recording.clip, model_->shapes(), /*floor_height_m=*/0));
   POISE_ASSIGN_OR_RETURN(motion::Clip clip,
                          motion::ExpandFromRoles(recording.clip, variant, roles_));
-  return Correction{
-      .clip = std::move(clip), .score = recording.score, .before = before, .after = after};
+  return Correction{.clip = std::move(clip),
+                    .score = recording.score,
+                    .rollouts = std::move(learned.scores),
+                    .timed_out = learned.timed_out,
+                    .before = before,
+                    .after = after};
 }
 
 }  // namespace poise::correction

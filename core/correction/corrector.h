@@ -14,12 +14,15 @@ struct Correction {
   /// lacks (toes, fingers) keep their rotations. Stands on the floor y = 0.
   motion::Clip clip;
   TrackingScore score;
+  std::vector<TrackingScore> rollouts;  ///< of the effort `fast`, in their order; else the score
+  bool timed_out = false;               ///< learning met its deadline; this is the best so far
   /// Both by the character's own bodies, against the floor that it stands on.
   motion::Plausibility before, after;
 };
 
 /// Makes variants of one clip physically plausible by imitation: reduces them to the character's
-/// joints, puts them on the floor, lets the character imitate them without learning, and measures.
+/// joints, puts them on the floor, lets the character imitate them (CorrectionConfig::effort says
+/// how hard it tries), and measures.
 /// The character is that of the source clip: its bone lengths, and its soles where they stand.
 /// Threads: Correct may be called from several threads; each call has its own world.
 class Corrector {

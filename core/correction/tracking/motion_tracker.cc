@@ -107,6 +107,17 @@ class Tally {
   TrackingScore score_;  // sums where it will hold means
 };
 
+Speeds Lag(const State& simulated, const State& wanted, const physics::Effort& effort) {
+  Speeds lag;
+  lag.head<3>() = effort.residual_force;
+  lag.segment<3>(3) = effort.residual_torque;
+  for (int i = 1; i < kMaxBodies; ++i) {
+    lag.segment<3>(SpeedIndex(i)) =
+        math::ToRotationVector(simulated.rotations[i].conjugate() * wanted.rotations[i]);
+  }
+  return lag;
+}
+
 // The simulated pose as a frame of the clip; what does not move against its parent moves as in the
 // reference.
 void Record(const physics::Articulation& tree, const State& simulated, int frame,
@@ -146,7 +157,8 @@ MotionTracker::MotionTracker(physics::HumanoidModelPtr model, physics::World wor
       config_(config),
       reward_(reward) {}
 
-Speeds MotionTracker::FeedForward(const State& wanted, const Speeds& acceleration) const {
+Speeds MotionTracker::FeedForward(const State& wanted, const Speeds& acceleration,
+                                  const Speeds& offset) const {
   const State& now = world_.state();
   const physics::Articulation& tree = model_->articulation();
   // With the reference's speeds: those of the simulation would feed its jerks back.
@@ -155,7 +167,7 @@ Speeds MotionTracker::FeedForward(const State& wanted, const Speeds& acceleratio
   Speeds forces = physics::InverseDynamics(tree, moving, acceleration, world_.gravity());
   const double heavier = model_->config().body_mass_kg / kReferenceMass;
   const Vec3 force =
-      forces.head<3>() +
+      forces.head<3>() + offset.head<3>() +
       heavier * (config_.pelvis_stiffness * (wanted.root_position - now.root_position) +
                  config_.pelvis_damping * (wanted.speeds.head<3>() - now.speeds.head<3>()));
   const Vec3 torque = forces.segment<3>(3) +
@@ -181,17 +193,21 @@ void MotionTracker::HoldResidual(const State& wanted, physics::Drive& drive) con
       gains.angular_stiffness * RootTurn(now, wanted) + gains.angular_damping * lag.segment<3>(3);
 }
 
-void MotionTracker::Aim(const ReferenceMotion& reference, double time_s,
+void MotionTracker::Aim(const ReferenceMotion& reference, double time_s, const Speeds& offset,
                         physics::Drive& drive) const {
   const State wanted = reference.At(time_s);
   drive.target_rotations = wanted.rotations;
+  for (int i = 1; i < kMaxBodies; ++i) {
+    const Vec3 turn = offset.segment<3>(SpeedIndex(i));
+    if (!turn.isZero(0)) drive.target_rotations[i] *= math::FromRotationVector(turn);
+  }
   drive.target_root = wanted.root_position;
   drive.target_speeds = wanted.speeds;
   if (!config_.target_velocity) drive.target_speeds.tail<physics::kMaxSpeeds - 6>().setZero();
   drive.predict_bias = !config_.feed_forward;
   drive.feed_forward.setZero();
   if (config_.feed_forward) {
-    drive.feed_forward = FeedForward(wanted, reference.AccelerationAt(time_s));
+    drive.feed_forward = FeedForward(wanted, reference.AccelerationAt(time_s), offset);
   }
   if (config_.implicit_residual) {
     drive.residual = model_->residual_gains().Scaled(config_.residual_factor);
@@ -219,10 +235,13 @@ bool MotionTracker::Failed(const ReferenceMotion& reference, double time_s) cons
 }
 
 StatusOr<Recording> MotionTracker::Track(const ReferenceMotion& reference,
-                                         const base::RunContext& context) {
-  Recording recording{.clip = reference.clip(), .score = {}};
+                                         const base::RunContext& context,
+                                         const TrackingOffsets* offsets) {
+  Recording recording{.clip = reference.clip(), .score = {}, .lags = {}};
+  recording.lags.assign(reference.num_frames(), Speeds::Zero());
   Tally tally(*model_);
   physics::Drive drive;
+  const Speeds none = Speeds::Zero();
   bool failed = false;
   world_.Reset(reference.frame(0));
   for (int frame = 0; frame < reference.num_frames(); ++frame) {
@@ -238,10 +257,13 @@ StatusOr<Recording> MotionTracker::Track(const ReferenceMotion& reference,
                      ComputeReward(*model_, reward_, simulated, wanted, effort.residual_force,
                                    effort.residual_torque),
                      effort);
+      recording.lags[frame] = Lag(now, reference.frame(frame), effort);
     }
     for (int step = 0; step < steps_per_frame_; ++step) {
       const int count = frame * steps_per_frame_ + step;
-      if (count % steps_per_aim_ == 0) Aim(reference, count * world_.step_s(), drive);
+      if (count % steps_per_aim_ == 0) {
+        Aim(reference, count * world_.step_s(), offsets ? (*offsets)[frame] : none, drive);
+      }
       world_.Step(drive);
       if (failed) continue;
       tally.AddStep(world_.effort());

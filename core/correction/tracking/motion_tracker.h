@@ -35,7 +35,14 @@ struct TrackingScore {
 struct Recording {
   motion::Clip clip;
   TrackingScore score;
+  /// (frames) What was missing: of each joint the rotation vector from its pose to the reference's,
+  /// in the body's axes; at the root the residual wrench. 0 after a fall.
+  std::vector<physics::Speeds> lags;
 };
+
+/// (frames) What is learned of a motion: added to each joint's target, as a rotation vector in the
+/// target's axes; at the root a wrench that the stance legs exert more.
+using TrackingOffsets = std::vector<physics::Speeds>;
 
 /// Imitates a motion with the controller without learning. One World, reused.
 /// Threads: one caller at a time.
@@ -48,18 +55,20 @@ class MotionTracker {
                                         const TrackingConfig& config = {},
                                         const RewardConfig& reward = {});
 
-  /// From t = 0. `reference` must be of the same character and frame rate.
-  /// Errors: kCancelled, kDeadlineExceeded of `context`; kOutOfRange DIVERGED (a velocity above 100
-  /// m/s or rad/s, or no number).
-  StatusOr<Recording> Track(const ReferenceMotion& reference, const base::RunContext& context = {});
+  /// From t = 0. `reference` must be of the same character and frame rate; `offsets` has its
+  /// frames. Errors: kCancelled, kDeadlineExceeded of `context`; kOutOfRange DIVERGED (a velocity
+  /// above 100 m/s or rad/s, or no number).
+  StatusOr<Recording> Track(const ReferenceMotion& reference, const base::RunContext& context = {},
+                            const TrackingOffsets* offsets = nullptr);
 
  private:
   MotionTracker(physics::HumanoidModelPtr model, physics::World world, int steps_per_frame,
                 const TrackingConfig& config, const RewardConfig& reward);
 
-  void Aim(const ReferenceMotion& reference, double time_s, physics::Drive& drive) const;
-  physics::Speeds FeedForward(const physics::State& wanted,
-                              const physics::Speeds& acceleration) const;
+  void Aim(const ReferenceMotion& reference, double time_s, const physics::Speeds& offset,
+           physics::Drive& drive) const;
+  physics::Speeds FeedForward(const physics::State& wanted, const physics::Speeds& acceleration,
+                              const physics::Speeds& offset) const;
   void HoldResidual(const physics::State& wanted, physics::Drive& drive) const;
   bool Failed(const ReferenceMotion& reference, double time_s) const;
 

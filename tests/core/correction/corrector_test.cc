@@ -50,6 +50,17 @@ TEST(CorrectorTest, FeetBelowTheFloorComeToStandOnIt) {
   EXPECT_LT(correction.after.penetration_mean_m, 0.5 * correction.before.penetration_mean_m);
 }
 
+TEST(CorrectorTest, TheEffortDecidesHowOftenItTries) {
+  const motion::Clip clip = SwayingClip(1);
+  for (const auto& [effort, rollouts] : {std::pair("instant", 1u), std::pair("fast", 5u)}) {
+    CorrectionConfig config;
+    config.effort = effort;
+    config.learning.rollouts = 5;
+    const Corrector corrector = std::move(Corrector::Create(clip, RolesOf(clip), config)).value();
+    EXPECT_EQ(corrector.Correct(clip)->rollouts.size(), rollouts);
+  }
+}
+
 TEST(CorrectorTest, RefusesAnotherSkeletonAndBadValues) {
   const motion::Clip clip = SwayingClip(1);
   CorrectionConfig config;

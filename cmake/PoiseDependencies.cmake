@@ -17,6 +17,7 @@ find_program(POISE_GRPC_CPP_PLUGIN grpc_cpp_plugin REQUIRED)
 
 if(POISE_BUILD_SERVER)
   find_package(prometheus-cpp REQUIRED)
+  pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
   find_package(Torch REQUIRED)
   find_package(SQLiteCpp 3.2 REQUIRED)
   pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)

@@ -1,14 +1,10 @@
 #include "server/telemetry/prometheus_telemetry.h"
 
-#include <fmt/format.h>
 #include <prometheus/counter.h>
-#include <prometheus/exposer.h>
 #include <prometheus/gauge.h>
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
 #include <prometheus/text_serializer.h>
-
-#include <exception>
 
 namespace poise::server {
 namespace {
@@ -84,14 +80,7 @@ base::Histogram& PrometheusTelemetry::histogram(const std::string& name, const s
 }
 
 Status PrometheusTelemetry::Expose(const std::string& address) {
-  try {
-    exposer_ = std::make_unique<prometheus::Exposer>(address);
-    exposer_->RegisterCollectable(registry_);
-  } catch (const std::exception& error) {
-    return base::FailedPrecondition(
-        "CANNOT_LISTEN", "metrics",
-        fmt::format("cannot serve metrics on {}: {}", address, error.what()));
-  }
+  POISE_ASSIGN_OR_RETURN(page_, MetricsPage::Open(address, [this] { return Text(); }));
   return absl::OkStatus();
 }
 

@@ -8,9 +8,9 @@
 
 #include "core/base/status.h"
 #include "core/base/telemetry.h"
+#include "server/telemetry/metrics_page.h"
 
 namespace prometheus {
-class Exposer;
 class Registry;
 }  // namespace prometheus
 
@@ -40,11 +40,11 @@ class PrometheusTelemetry : public base::Telemetry {
   using Key = std::pair<std::string, base::Labels>;
 
   std::shared_ptr<prometheus::Registry> registry_;
-  std::unique_ptr<prometheus::Exposer> exposer_;
   std::mutex mutex_;
   std::map<Key, std::unique_ptr<base::Counter>> counters_;
   std::map<Key, std::unique_ptr<base::Gauge>> gauges_;
   std::map<Key, std::unique_ptr<base::Histogram>> histograms_;
+  std::unique_ptr<MetricsPage> page_;  // last: it reads the others
 };
 
 }  // namespace poise::server

@@ -110,7 +110,6 @@ StatusOr<std::unique_ptr<Call>> Admission::Admit(grpc::CallbackServerContext& co
                     .tenant = "default",
                     .trace_id = TraceIdOf(context)};
   if (!IsUsableRequestId(origin.request_id)) origin.request_id = NewRequestId();
-  context.AddInitialMetadata(kRequestIdKey, origin.request_id);
   Status status = CheckToken(context);
   if (status.ok()) {
     StatusOr<std::string> tenant = TenantOf(context);
@@ -119,8 +118,11 @@ StatusOr<std::unique_ptr<Call>> Admission::Admit(grpc::CallbackServerContext& co
   }
   if (!status.ok()) {
     refused_.Increment();
+    // After initial metadata a client's gRPC does not make the call again by itself.
+    context.AddTrailingMetadata(kRequestIdKey, origin.request_id);
     return status;
   }
+  context.AddInitialMetadata(kRequestIdKey, origin.request_id);
   return std::unique_ptr<Call>(
       new Call(*this, std::move(origin), policy.place, Deadline(context, policy)));
 }

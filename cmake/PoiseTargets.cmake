@@ -47,10 +47,11 @@ function(poise_program name)
   endif()
 endfunction()
 
-# poise_test(NAME SOURCES ... [DEPS ...] [LABELS unit|integration|slow|lint] [TORCH] [TIMEOUT s])
-#   One GoogleTest program; its cases become ctest cases.
+# poise_test(NAME SOURCES ... [DEPS ...] [LABELS unit|integration|slow|lint] [TORCH] [SERIAL]
+#            [TIMEOUT s])
+#   One GoogleTest program; its cases become ctest cases. SERIAL: no other test runs beside them.
 function(poise_test name)
-  cmake_parse_arguments(ARG "TORCH" "TIMEOUT" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "TORCH;SERIAL" "TIMEOUT" "SOURCES;DEPS;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -63,6 +64,7 @@ function(poise_test name)
   endif()
   poise_program(${name} SOURCES ${ARG_SOURCES} DEPS ${ARG_DEPS} GTest::gmock_main ${torch_flag})
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL}
+               SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
                ENVIRONMENT "${POISE_TEST_ENVIRONMENT}")
 endfunction()

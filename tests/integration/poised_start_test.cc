@@ -7,8 +7,10 @@
 #include <cstdio>
 #include <sstream>
 
+#include "absl/time/clock.h"
 #include "core/base/isa.h"
 #include "core/base/version.h"
+#include "tests/support/job_cluster.h"
 #include "tests/support/raw_call.h"
 #include "tests/support/server_process.h"
 #include "tests/support/test_server.h"
@@ -46,6 +48,20 @@ TEST(PoisedStartTest, SecondServerOnThePortEndsWithAClearMessage) {
   EXPECT_TRUE(second.ready().empty());
   EXPECT_EQ(second.Wait(), 4);
   EXPECT_THAT(second.Log(), ::testing::HasSubstr("cannot listen on " + first.address()));
+}
+
+TEST(PoisedStartTest, MetricsPageCountsCalls) {
+  testing::JobCluster cluster;
+  const grpc::Status status =
+      testing::RawCall(cluster.channel(), "/poise.v1.AugmentationService/Augment", "\xff");
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  // A call is counted when gRPC is done with it, a little after its caller is.
+  const auto calls = [&] {
+    return cluster.Metric("poise_requests_total", {"INVALID_ARGUMENT", "Augment"});
+  };
+  for (int tries = 0; calls() == 0 && tries < 100; ++tries) absl::SleepFor(absl::Milliseconds(50));
+  EXPECT_EQ(calls(), 1);
+  EXPECT_GT(cluster.Metric("poise_sgemm_gflops_per_core"), 0);
 }
 
 TEST(PoisedStartTest, BadFlagsEndWithExitCodeTwo) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "absl/time/clock.h"
 #include "google/protobuf/empty.pb.h"
 #include "proto/convert/status_convert.h"
 
@@ -16,12 +17,15 @@ StatusOr<Response> Answer(const grpc::Status& status, Response response) {
 
 }  // namespace
 
-JobClient::JobClient(std::shared_ptr<grpc::Channel> channel, std::string tenant)
-    : tenant_(std::move(tenant)), stub_(v1::JobService::NewStub(std::move(channel))) {}
+JobClient::JobClient(std::shared_ptr<grpc::Channel> channel, std::string tenant,
+                     absl::Duration timeout)
+    : tenant_(std::move(tenant)),
+      timeout_(timeout),
+      stub_(v1::JobService::NewStub(std::move(channel))) {}
 
 std::unique_ptr<grpc::ClientContext> JobClient::NewContext() const {
   auto context = std::make_unique<grpc::ClientContext>();
-  context->set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(1));
+  context->set_deadline(absl::ToChronoTime(absl::Now() + timeout_));
   if (!tenant_.empty()) context->AddMetadata("x-poise-tenant", tenant_);
   return context;
 }

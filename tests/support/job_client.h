@@ -9,15 +9,17 @@
 #include <string>
 #include <vector>
 
+#include "absl/time/time.h"
 #include "core/base/status.h"
 #include "poise/v1/job_service.grpc.pb.h"
 
 namespace poise::testing {
 
-/// poise.v1.JobService as a test calls it: one call each, with a deadline of a minute.
+/// poise.v1.JobService as a test calls it: one call each, with a deadline.
 class JobClient {
  public:
-  explicit JobClient(std::shared_ptr<grpc::Channel> channel, std::string tenant = "");
+  explicit JobClient(std::shared_ptr<grpc::Channel> channel, std::string tenant = "",
+                     absl::Duration timeout = absl::Minutes(1));
 
   StatusOr<v1::Job> Create(const v1::CreateJobRequest& request) const;
   StatusOr<v1::Job> Get(const std::string& name) const;
@@ -37,6 +39,7 @@ class JobClient {
 
  private:
   const std::string tenant_;
+  const absl::Duration timeout_;
   std::unique_ptr<v1::JobService::Stub> stub_;
 };
 

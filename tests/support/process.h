@@ -25,6 +25,8 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  pid_t pid() const { return pid_; }
+
   /// What it has written so far.
   std::string Output() const;
   std::string ErrorOutput() const;

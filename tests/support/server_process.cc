@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "tests/support/process_inspection.h"
 #include "tests/support/test_server.h"
 
 namespace poise::testing {
@@ -75,19 +75,9 @@ int ServerProcess::Wait() {
 
 std::string ServerProcess::Log() const { return ReadFile((folder_.path() / "log").string()); }
 
-int64_t ServerProcess::ResidentBytes() const {
-  std::istringstream statm(ReadFile("/proc/" + std::to_string(pid_) + "/statm"));
-  int64_t total = 0, resident = 0;
-  statm >> total >> resident;
-  return resident * sysconf(_SC_PAGESIZE);
-}
+int64_t ServerProcess::ResidentBytes() const { return SizeOf(pid_).resident_bytes; }
 
-double ServerProcess::CpuSeconds() const {
-  clockid_t clock{};
-  timespec time{};
-  if (clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &time) != 0) return -1;
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
+double ServerProcess::CpuSeconds() const { return CpuSecondsOf(pid_); }
 
 std::string ServerProcess::Environment(const std::string& name) const {
   std::istringstream variables(ReadFile("/proc/" + std::to_string(pid_) + "/environ"));

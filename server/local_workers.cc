@@ -19,6 +19,7 @@ namespace {
 
 constexpr size_t kMaxLineBytes = size_t{64} << 10;
 constexpr int kLookMs = 50;
+constexpr char kIdPrefix[] = "local-";
 
 // Lines of the worker are such as this server's own.
 void Forward(std::string line) {
@@ -86,9 +87,12 @@ void LocalWorkers::Advance(Stage stage) {
 }
 
 void LocalWorkers::Run() {
+  // Those of an earlier process on this store died with it.
+  const StatusOr<int64_t> left = jobs_.ExpireWorkersNamed(kIdPrefix);
+  if (left.ok() && *left > 0) Log(level::warn, "jobs_of_dead_workers", {{"jobs", *left}});
   absl::Duration pause = config_.first_pause;
   while (stage() == Stage::kWork) {
-    const std::string id = "local-" + base::RandomHex(6);
+    const std::string id = kIdPrefix + base::RandomHex(6);
     const absl::Time start = absl::Now();
     RunOne(id);
     // Given back or finished already, unless it died.

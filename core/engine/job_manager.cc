@@ -211,6 +211,17 @@ StatusOr<int64_t> JobManager::ExpireWorker(const std::string& worker) {
   return store_->ExpireWorker(worker);
 }
 
+StatusOr<int64_t> JobManager::ExpireWorkersNamed(std::string_view prefix) {
+  POISE_ASSIGN_OR_RETURN(const std::vector<jobs::WorkerInfo> workers, store_->Workers());
+  int64_t expired = 0;
+  for (const jobs::WorkerInfo& worker : workers) {
+    if (!worker.id.starts_with(prefix)) continue;
+    POISE_ASSIGN_OR_RETURN(const int64_t leases, store_->ExpireWorker(worker.id));
+    expired += leases;
+  }
+  return expired;
+}
+
 StatusOr<std::vector<jobs::Finding>> JobManager::Diagnose(const base::RunContext& context) {
   return DiagnoseJobs(*store_, artifacts_, context);
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/api/job.h"
@@ -88,6 +89,8 @@ class JobManager {
   Status Release(const jobs::Fence& fence, const api::JobUsage& usage);
   /// The worker is known to be dead: its jobs are claimable at once. Returns how many it had.
   StatusOr<int64_t> ExpireWorker(const std::string& worker);
+  /// The same for all whose id begins with `prefix`.
+  StatusOr<int64_t> ExpireWorkersNamed(std::string_view prefix);
 
   // What operators ask for.
 

@@ -75,6 +75,18 @@ TEST_F(WorkerPoolTest, NothingOutlivesAServerThatIsKilled) {
   EXPECT_TRUE(Eventually([&] { return gone(worker) && gone(children[0]); }, absl::Seconds(5)));
 }
 
+TEST_F(WorkerPoolTest, JobsOfAKilledServersWorkersGoOnAtOnceWithTheNextServer) {
+  StartServer(LongLeases());
+  const std::string name = Submit({{"steps", 1'000'000}});
+  WaitForStep(name, 3);
+  server_->Signal(SIGKILL);
+  server_->Wait();
+  StartServer(LongLeases());
+  const v1::Job job = WaitFor(
+      name, [](const v1::Job& now) { return now.attempt() == 2; }, absl::Seconds(20));
+  EXPECT_EQ(job.losses(), 1);
+}
+
 TEST_F(WorkerPoolTest, WorkersHaveTheServersToken) {
   StartServer(LongLeases(), {{"POISE_TOKEN", "secret"}});
   WorkerPid();

@@ -67,9 +67,9 @@ class Admission {
   Admission(AdmissionConfig config, base::Telemetry& telemetry);
 
   /// Sends the request id back in the initial metadata ("x-request-id"), of a refused call in the
-  /// trailing one. Errors: kUnauthenticated MISSING_TOKEN, WRONG_TOKEN; kInvalidArgument BAD_TENANT;
-  /// kResourceExhausted TOO_MANY_CALLS, TOO_MANY_CALLS_OF_PEER, TOO_MANY_WAITING_CALLS, with a retry
-  /// time; kUnavailable SHUTTING_DOWN.
+  /// trailing one. Errors: kUnauthenticated MISSING_TOKEN, WRONG_TOKEN; kInvalidArgument
+  /// BAD_TENANT; kResourceExhausted TOO_MANY_CALLS, TOO_MANY_CALLS_OF_PEER, TOO_MANY_WAITING_CALLS,
+  /// with a retry time; kUnavailable SHUTTING_DOWN.
   StatusOr<std::unique_ptr<Call>> Admit(grpc::CallbackServerContext& context,
                                         const MethodPolicy& policy);
 

@@ -62,7 +62,7 @@ void KillWhileSubmitting(JobCluster& cluster, int round, absl::Duration moment, 
 
 TEST(JobDurabilityTest, EveryAcceptedJobIsFoundOnceAfterTheServerIsKilledAtAnyMoment) {
   const int rounds = FromEnvironment("POISE_KILL_ROUNDS", 25);
-  JobCluster cluster;
+  JobCluster cluster({"--max-queued-per-tenant", "1000000"});
   std::mt19937 random{1};
   size_t accepted = 0, unanswered = 0, kept_unanswered = 0;
   for (int round = 0; round < rounds; ++round) {

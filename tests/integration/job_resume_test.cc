@@ -43,7 +43,7 @@ struct Kill {
 
 // Kills the job's child or its supervisor; the supervisor is replaced.
 Kill KillSomething(JobCluster& cluster, size_t& worker, bool supervisor, const api::Job& job) {
-  const auto children = ChildrenOf(cluster.worker(worker).pid());
+  const auto children = LivingChildrenOf(cluster.worker(worker).pid());
   const Kill kill{absl::Now(), job.attempt};
   if (supervisor) {
     cluster.worker(worker).Signal(SIGKILL);

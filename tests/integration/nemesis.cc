@@ -90,7 +90,7 @@ size_t Nemesis::RandomWorker() {
 }
 
 pid_t Nemesis::RandomChild(size_t worker) {
-  std::vector<pid_t> children = ChildrenOf(cluster_.worker(worker).pid());
+  std::vector<pid_t> children = LivingChildrenOf(cluster_.worker(worker).pid());
   std::erase_if(children, [this](pid_t child) { return IsPaused(child); });
   if (children.empty()) return 0;
   return children[std::uniform_int_distribution<size_t>(0, children.size() - 1)(random_)];

@@ -4,22 +4,13 @@
 #include <grpcpp/create_channel.h>
 #include <signal.h>
 
-#include <fstream>
-
 #include "absl/time/clock.h"
+#include "tests/support/process_inspection.h"
 
 namespace poise::testing {
 namespace {
 
 constexpr absl::Duration kStart = absl::Seconds(60);
-
-pid_t ParentOf(const std::filesystem::path& process) {
-  std::ifstream file(process / "status");
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("PPid:")) return std::stoi(line.substr(5));
-  }
-  return -1;
-}
 
 }  // namespace
 
@@ -32,16 +23,6 @@ bool Eventually(const std::function<bool()>& condition, absl::Duration limit) {
 }
 
 bool Worker::WaitUntilReady() { return process.WaitForOutput("\n", kStart); }
-
-std::vector<pid_t> ChildrenOf(pid_t pid) {
-  std::vector<pid_t> children;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    if (ParentOf(entry.path()) == pid) children.push_back(std::stoi(name));
-  }
-  return children;
-}
 
 std::vector<pid_t> Worker::Children() const {
   const base::Json ready = base::Json::parse(process.Output(), nullptr, false);

@@ -69,9 +69,6 @@ class WorkerFixture : public ::testing::Test {
   std::unique_ptr<Process> server_;
 };
 
-/// The processes that this one has started and that still run.
-std::vector<pid_t> ChildrenOf(pid_t pid);
-
 /// Asks again and again; false when `limit` is over first.
 bool Eventually(const std::function<bool()>& condition, absl::Duration limit);
 

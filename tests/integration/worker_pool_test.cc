@@ -4,6 +4,7 @@
 #include "absl/time/clock.h"
 #include "server/local_workers.h"
 #include "tests/integration/worker_fixture.h"
+#include "tests/support/process_inspection.h"
 
 namespace poise::worker {
 namespace {

@@ -1,13 +1,10 @@
 #include "tests/support/job_cluster.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
+#include <httplib.h>
 #include <signal.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -35,27 +32,6 @@ std::shared_ptr<grpc::Channel> QuickChannel(const std::string& address) {
 int RandomPort() {
   static std::mt19937 engine{std::random_device()()};
   return std::uniform_int_distribution<int>(20'000, 32'000)(engine);
-}
-
-std::string HttpGet(const std::string& address, const std::string& path) {
-  const size_t colon = address.rfind(':');
-  sockaddr_in peer{};
-  peer.sin_family = AF_INET;
-  peer.sin_port = htons(static_cast<uint16_t>(std::stoi(address.substr(colon + 1))));
-  inet_pton(AF_INET, address.substr(0, colon).c_str(), &peer.sin_addr);
-  const int connection = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  std::string answer;
-  if (connect(connection, reinterpret_cast<sockaddr*>(&peer), sizeof(peer)) == 0) {
-    const std::string request = fmt::format("GET {} HTTP/1.0\r\n\r\n", path);
-    if (send(connection, request.data(), request.size(), MSG_NOSIGNAL) > 0) {
-      char buffer[4096];
-      for (ssize_t n; (n = recv(connection, buffer, sizeof(buffer), 0)) > 0;) {
-        answer.append(buffer, static_cast<size_t>(n));
-      }
-    }
-  }
-  close(connection);
-  return answer;
 }
 
 std::string Logs(const std::vector<std::unique_ptr<Process>>& processes) {
@@ -107,7 +83,8 @@ size_t JobCluster::StartWorker(const std::vector<std::string>& flags,
 }
 
 double JobCluster::Metric(const std::string& name, const std::vector<std::string>& parts) const {
-  std::istringstream page(HttpGet(metrics_address_, "/metrics"));
+  const auto answer = httplib::Client("http://" + metrics_address_).Get("/metrics");
+  std::istringstream page(answer ? answer->body : "");
   double sum = 0;
   for (std::string line; std::getline(page, line);) {
     const bool named = line.starts_with(name + " ") || line.starts_with(name + "{");

@@ -34,9 +34,17 @@ std::vector<pid_t> ChildrenOf(pid_t pid) {
     const std::string name = entry.path().filename().string();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
     const std::string status = ReadFile(entry.path() / "status");
-    const bool dead = status.find("\nState:\tZ") != std::string::npos;
-    if (!dead && StatusNumber(status, "\nPPid") == pid) children.push_back(std::stoi(name));
+    if (StatusNumber(status, "\nPPid") == pid) children.push_back(std::stoi(name));
   }
+  return children;
+}
+
+std::vector<pid_t> LivingChildrenOf(pid_t pid) {
+  std::vector<pid_t> children = ChildrenOf(pid);
+  std::erase_if(children, [](pid_t child) {
+    const std::string status = ReadFile(fmt::format("/proc/{}/status", child));
+    return status.empty() || status.find("\nState:\tZ") != std::string::npos;
+  });
   return children;
 }
 

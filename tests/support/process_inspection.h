@@ -9,8 +9,10 @@
 /// What /proc tells about a process.
 namespace poise::testing {
 
-/// The processes whose parent is `pid`.
+/// The processes whose parent is `pid`, those too that are dead and not yet waited for.
 std::vector<pid_t> ChildrenOf(pid_t pid);
+/// Those of them that live.
+std::vector<pid_t> LivingChildrenOf(pid_t pid);
 /// Resident memory, open descriptors and threads of a process; zeros when it is gone.
 struct ProcessSize {
   int64_t resident_bytes = 0;

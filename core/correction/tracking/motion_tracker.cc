@@ -1,49 +1,16 @@
 #include "core/correction/tracking/motion_tracker.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-
-#include "core/correction/tracking/stance.h"
 
 namespace poise::correction {
 namespace {
 
-using motion::JointRole;
 using physics::kMaxBodies;
 using physics::SpeedIndex;
 using physics::Speeds;
 using physics::State;
 
-constexpr double kReferenceMass = 45;  // [kg] whose gains the config holds
-constexpr double kGravity = 9.8;       // [m/s2] of a body weight
-constexpr double kFastest = 100;       // [m/s, rad/s] beyond this nothing is simulated any more
-constexpr double kContactDistance = 0.001;  // [m] a body this near to the ground touches it
-
-bool IsFoot(int body) {
-  return body == static_cast<int>(JointRole::kRightAnkle) ||
-         body == static_cast<int>(JointRole::kLeftAnkle);
-}
-
-// Height of a body's lowest point.
-double LowestPoint(const physics::Body& body, const Vec3& joint, const Quat& rotation) {
-  const math::Mat3 axes =
-      rotation.toRotationMatrix() * Eigen::Map<const math::Mat3>(body.shape_axes);
-  const Vec3 center = joint + rotation * Eigen::Map<const Vec3>(body.shape_center);
-  return center.y() - body.radius - body.half_length * std::abs(axes(1, 1)) -
-         axes.row(1).cwiseAbs().dot(Eigen::Map<const Vec3>(body.half_extents));
-}
-
-// Turn that takes the root where it is wanted, in world axes.
-Vec3 RootTurn(const State& now, const State& wanted) {
-  return math::ToRotationVector(wanted.rotations[0] * now.rotations[0].conjugate());
-}
-
-Status Diverged(int frame) {
-  return base::MakeError(absl::StatusCode::kOutOfRange, "DIVERGED", "",
-                         fmt::format("the simulation diverged at frame {}", frame));
-}
+constexpr double kGravity = 9.8;  // [m/s2] of a body weight
 
 // Sums over the frames until the fall, and what they come to.
 class Tally {
@@ -65,8 +32,8 @@ class Tally {
     AddPoseErrors(simulated, wanted);
   }
 
-  void AddStep(const physics::Effort& effort) {
-    ++steps_;
+  void AddSteps(const FrameEffort& effort) {
+    steps_ += effort.steps;
     score_.torque_saturation += effort.saturated_joints;
   }
 
@@ -134,143 +101,49 @@ StatusOr<MotionTracker> MotionTracker::Create(physics::HumanoidModelPtr model,
                                               const physics::WorldConfig& world, double frame_rate,
                                               const TrackingConfig& config,
                                               const RewardConfig& reward) {
-  TrackingConfig checked = config;
-  RewardConfig checked_reward = reward;
+  RewardConfig checked = reward;
   POISE_RETURN_IF_ERROR(base::CheckRanges(checked.Fields()));
-  POISE_RETURN_IF_ERROR(base::CheckRanges(checked_reward.Fields()));
-  const int steps = std::max(1, static_cast<int>(std::lround(world.rate_hz / frame_rate)));
-  physics::WorldConfig adjusted = world;
-  adjusted.rate_hz = steps * frame_rate;
-  POISE_ASSIGN_OR_RETURN(physics::World created,
-                         physics::World::Create(model->articulation(), adjusted));
-  return MotionTracker(std::move(model), std::move(created), steps, config, reward);
-}
-
-MotionTracker::MotionTracker(physics::HumanoidModelPtr model, physics::World world,
-                             int steps_per_frame, const TrackingConfig& config,
-                             const RewardConfig& reward)
-    : model_(std::move(model)),
-      world_(std::move(world)),
-      steps_per_frame_(steps_per_frame),
-      steps_per_aim_(
-          std::max(1, static_cast<int>(std::lround(1 / (config.control_hz * world_.step_s()))))),
-      config_(config),
-      reward_(reward) {}
-
-Speeds MotionTracker::FeedForward(const State& wanted, const Speeds& acceleration,
-                                  const Speeds& offset) const {
-  const State& now = world_.state();
-  const physics::Articulation& tree = model_->articulation();
-  // With the reference's speeds: those of the simulation would feed its jerks back.
-  State moving = now;
-  moving.speeds = wanted.speeds;
-  Speeds forces = physics::InverseDynamics(tree, moving, acceleration, world_.gravity());
-  const double heavier = model_->config().body_mass_kg / kReferenceMass;
-  const Vec3 force =
-      forces.head<3>() + offset.head<3>() +
-      heavier * (config_.pelvis_stiffness * (wanted.root_position - now.root_position) +
-                 config_.pelvis_damping * (wanted.speeds.head<3>() - now.speeds.head<3>()));
-  const Vec3 torque = forces.segment<3>(3) +
-                      heavier * (config_.pelvis_angular_stiffness * RootTurn(now, wanted) +
-                                 config_.pelvis_angular_damping *
-                                     (wanted.speeds.segment<3>(3) - now.speeds.segment<3>(3)));
-  const double friction = world_.config().friction;
-  Stances stances = FindStances(world_);
-  ShareWrench(now.root_position, force, torque,
-              {.friction = friction * friction, .moment_softness_m2 = config_.moment_softness_m2},
-              stances);
-  forces.head<6>().setZero();  // nobody pushes the root
-  return forces + StanceTorques(tree, physics::ComputeFrames(tree, now), stances);
-}
-
-void MotionTracker::HoldResidual(const State& wanted, physics::Drive& drive) const {
-  const State& now = world_.state();
-  const physics::ResidualGains gains = model_->residual_gains().Scaled(config_.residual_factor);
-  const Speeds lag = wanted.speeds - now.speeds;
-  drive.feed_forward.head<3>() =
-      gains.stiffness * (wanted.root_position - now.root_position) + gains.damping * lag.head<3>();
-  drive.feed_forward.segment<3>(3) =
-      gains.angular_stiffness * RootTurn(now, wanted) + gains.angular_damping * lag.segment<3>(3);
-}
-
-void MotionTracker::Aim(const ReferenceMotion& reference, double time_s, const Speeds& offset,
-                        physics::Drive& drive) const {
-  const State wanted = reference.At(time_s);
-  drive.target_rotations = wanted.rotations;
-  for (int i = 1; i < kMaxBodies; ++i) {
-    const Vec3 turn = offset.segment<3>(SpeedIndex(i));
-    if (!turn.isZero(0)) drive.target_rotations[i] *= math::FromRotationVector(turn);
-  }
-  drive.target_root = wanted.root_position;
-  drive.target_speeds = wanted.speeds;
-  if (!config_.target_velocity) drive.target_speeds.tail<physics::kMaxSpeeds - 6>().setZero();
-  drive.predict_bias = !config_.feed_forward;
-  drive.feed_forward.setZero();
-  if (config_.feed_forward) {
-    drive.feed_forward = FeedForward(wanted, reference.AccelerationAt(time_s), offset);
-  }
-  if (config_.implicit_residual) {
-    drive.residual = model_->residual_gains().Scaled(config_.residual_factor);
-  } else {
-    HoldResidual(wanted, drive);
-  }
-}
-
-bool MotionTracker::Failed(const ReferenceMotion& reference, double time_s) const {
-  const State wanted = reference.At(time_s);
-  if ((world_.state().root_position - wanted.root_position).norm() > config_.pelvis_limit_m) {
-    return true;
-  }
-  const physics::Articulation& tree = model_->articulation();
-  for (const physics::ContactPoint& contact : world_.contacts()) {
-    const int body = contact.body;
-    if (contact.other >= 0 || IsFoot(body) || contact.distance > kContactDistance) continue;
-    const physics::BodyFrames frames = physics::ComputeFrames(tree, wanted);
-    if (LowestPoint(tree.bodies[body], frames.positions[body], frames.rotations[body]) >
-        config_.near_floor_m) {
-      return true;
-    }
-  }
-  return false;
+  POISE_ASSIGN_OR_RETURN(TrackingEpisode episode,
+                         TrackingEpisode::Create(std::move(model), world, frame_rate, config));
+  return MotionTracker(std::move(episode), reward);
 }
 
 StatusOr<Recording> MotionTracker::Track(const ReferenceMotion& reference,
                                          const base::RunContext& context,
                                          const TrackingOffsets* offsets) {
+  return Track(reference, context, [&](const TrackingEpisode& episode) {
+    FrameCommand command;
+    if (offsets != nullptr) command.offset = (*offsets)[episode.frame()];
+    return command;
+  });
+}
+
+StatusOr<Recording> MotionTracker::Track(const ReferenceMotion& reference,
+                                         const base::RunContext& context,
+                                         const Commander& commander) {
+  const physics::HumanoidModel& model = episode_.model();
+  const physics::World& world = episode_.world();
   Recording recording{.clip = reference.clip(), .score = {}, .lags = {}};
   recording.lags.assign(reference.num_frames(), Speeds::Zero());
-  Tally tally(*model_);
-  physics::Drive drive;
-  const Speeds none = Speeds::Zero();
-  bool failed = false;
-  world_.Reset(reference.frame(0));
+  Tally tally(model);
+  episode_.Start(reference);
   for (int frame = 0; frame < reference.num_frames(); ++frame) {
     POISE_RETURN_IF_ERROR(context.Check());
-    const State& now = world_.state();
-    if (!(now.speeds.cwiseAbs().maxCoeff() < kFastest)) return Diverged(frame);
-    Record(model_->articulation(), now, frame, recording.clip);
-    if (!failed) {
-      const Features simulated = ComputeFeatures(*model_, now);
-      const Features wanted = ComputeFeatures(*model_, reference.frame(frame));
-      const physics::Effort& effort = world_.effort();
+    Record(model.articulation(), world.state(), frame, recording.clip);
+    if (!episode_.failed()) {
+      const Features simulated = ComputeFeatures(model, world.state());
+      const Features wanted = ComputeFeatures(model, reference.frame(frame));
+      const physics::Effort& effort = world.effort();
       tally.AddFrame(simulated, wanted,
-                     ComputeReward(*model_, reward_, simulated, wanted, effort.residual_force,
+                     ComputeReward(model, reward_, simulated, wanted, effort.residual_force,
                                    effort.residual_torque),
                      effort);
-      recording.lags[frame] = Lag(now, reference.frame(frame), effort);
+      recording.lags[frame] = Lag(world.state(), reference.frame(frame), effort);
     }
-    for (int step = 0; step < steps_per_frame_; ++step) {
-      const int count = frame * steps_per_frame_ + step;
-      if (count % steps_per_aim_ == 0) {
-        Aim(reference, count * world_.step_s(), offsets ? (*offsets)[frame] : none, drive);
-      }
-      world_.Step(drive);
-      if (failed) continue;
-      tally.AddStep(world_.effort());
-      failed = Failed(reference, (count + 1) * world_.step_s());
-    }
+    POISE_ASSIGN_OR_RETURN(const FrameEffort steps, episode_.Advance(commander(episode_)));
+    tally.AddSteps(steps);
   }
-  recording.score = tally.Finish(!failed, reference.num_frames());
+  recording.score = tally.Finish(!episode_.failed(), reference.num_frames());
   return recording;
 }
 

@@ -1,13 +1,13 @@
 #ifndef POISE_CORE_CORRECTION_TRACKING_MOTION_TRACKER_H_
 #define POISE_CORE_CORRECTION_TRACKING_MOTION_TRACKER_H_
 
+#include <functional>
 #include <vector>
 
 #include "core/base/run_context.h"
 #include "core/correction/reference_motion.h"
 #include "core/correction/reward.h"
-#include "core/correction/tracking/tracking_config.h"
-#include "core/physics/world.h"
+#include "core/correction/tracking/tracking_episode.h"
 
 namespace poise::correction {
 
@@ -44,39 +44,32 @@ struct Recording {
 /// target's axes; at the root a wrench that the stance legs exert more.
 using TrackingOffsets = std::vector<physics::Speeds>;
 
-/// Imitates a motion with the controller without learning. One World, reused.
+/// Says at the start of each frame what is asked for it; the episode shows where the body is.
+using Commander = std::function<FrameCommand(const TrackingEpisode& episode)>;
+
+/// Imitates a motion with the controller without learning, and what is asked of it beside, and
+/// scores what the body did. One World, reused.
 /// Threads: one caller at a time.
 class MotionTracker {
  public:
-  /// `world.rate_hz` is rounded so that a frame is a whole number of steps.
-  /// Errors: kInvalidArgument CONFIG_VALUE_OUT_OF_RANGE, those of World.
+  /// Errors: kInvalidArgument CONFIG_VALUE_OUT_OF_RANGE, those of TrackingEpisode.
   static StatusOr<MotionTracker> Create(physics::HumanoidModelPtr model,
                                         const physics::WorldConfig& world, double frame_rate,
                                         const TrackingConfig& config = {},
                                         const RewardConfig& reward = {});
 
   /// From t = 0. `reference` must be of the same character and frame rate; `offsets` has its
-  /// frames. Errors: kCancelled, kDeadlineExceeded of `context`; kOutOfRange DIVERGED (a velocity
-  /// above 100 m/s or rad/s, or no number).
+  /// frames. Errors: kCancelled, kDeadlineExceeded of `context`; kOutOfRange DIVERGED.
   StatusOr<Recording> Track(const ReferenceMotion& reference, const base::RunContext& context = {},
                             const TrackingOffsets* offsets = nullptr);
+  StatusOr<Recording> Track(const ReferenceMotion& reference, const base::RunContext& context,
+                            const Commander& commander);
 
  private:
-  MotionTracker(physics::HumanoidModelPtr model, physics::World world, int steps_per_frame,
-                const TrackingConfig& config, const RewardConfig& reward);
+  MotionTracker(TrackingEpisode episode, const RewardConfig& reward)
+      : episode_(std::move(episode)), reward_(reward) {}
 
-  void Aim(const ReferenceMotion& reference, double time_s, const physics::Speeds& offset,
-           physics::Drive& drive) const;
-  physics::Speeds FeedForward(const physics::State& wanted, const physics::Speeds& acceleration,
-                              const physics::Speeds& offset) const;
-  void HoldResidual(const physics::State& wanted, physics::Drive& drive) const;
-  bool Failed(const ReferenceMotion& reference, double time_s) const;
-
-  physics::HumanoidModelPtr model_;
-  physics::World world_;
-  int steps_per_frame_;
-  int steps_per_aim_;
-  TrackingConfig config_;
+  TrackingEpisode episode_;
   RewardConfig reward_;
 };
 

@@ -19,8 +19,7 @@ StatusOr<Corrector> Corrector::Create(const motion::Clip& source, const motion::
   return Corrector(source.skeleton(), roles, std::move(model), config);
 }
 
-StatusOr<Correction> Corrector::Correct(const motion::Clip& variant,
-                                        const base::RunContext& context) const {
+StatusOr<ReferenceMotion> Corrector::Reference(const motion::Clip& variant) const {
   if (!variant.skeleton()->SameAs(*skeleton_)) {
     return base::InvalidArgument(
         "WRONG_SKELETON", "clip",
@@ -28,15 +27,16 @@ StatusOr<Correction> Corrector::Correct(const motion::Clip& variant,
   }
   POISE_ASSIGN_OR_RETURN(const motion::Clip reduced,
                          motion::ReduceToRoles(variant, roles_, motion::ReductionMode::kComposed));
-  POISE_ASSIGN_OR_RETURN(const ReferenceMotion reference,
-                         ReferenceMotion::Create(reduced, *model_, config_.reference));
-  POISE_ASSIGN_OR_RETURN(MotionTracker tracker,
-                         MotionTracker::Create(model_, config_.world, reference.frame_rate(),
-                                               config_.tracking, config_.reward));
-  LearningConfig learning = config_.learning;
-  if (config_.effort == "instant") learning.rollouts = 1;
-  POISE_ASSIGN_OR_RETURN(Learned learned, LearnIteratively(tracker, reference, learning, context));
-  const Recording& recording = learned.best;
+  return ReferenceMotion::Create(reduced, *model_, config_.reference);
+}
+
+StatusOr<MotionTracker> Corrector::Tracker(double frame_rate) const {
+  return MotionTracker::Create(model_, config_.world, frame_rate, config_.tracking, config_.reward);
+}
+
+StatusOr<Correction> Corrector::Assess(const motion::Clip& variant,
+                                       const ReferenceMotion& reference,
+                                       const Recording& recording) const {
   POISE_ASSIGN_OR_RETURN(
       const motion::Plausibility before,
       motion::AssessPlausibility(reference.clip(), model_->shapes(), /*floor_height_m=*/0));
@@ -47,10 +47,24 @@ StatusOr<Correction> Corrector::Correct(const motion::Clip& variant,
                          motion::ExpandFromRoles(recording.clip, variant, roles_));
   return Correction{.clip = std::move(clip),
                     .score = recording.score,
-                    .rollouts = std::move(learned.scores),
-                    .timed_out = learned.timed_out,
+                    .effort = config_.effort,
+                    .rollouts = {recording.score},
+                    .timed_out = false,
                     .before = before,
                     .after = after};
+}
+
+StatusOr<Correction> Corrector::Correct(const motion::Clip& variant,
+                                        const base::RunContext& context) const {
+  POISE_ASSIGN_OR_RETURN(const ReferenceMotion reference, Reference(variant));
+  POISE_ASSIGN_OR_RETURN(MotionTracker tracker, Tracker(reference.frame_rate()));
+  LearningConfig learning = config_.learning;
+  if (config_.effort == "instant") learning.rollouts = 1;
+  POISE_ASSIGN_OR_RETURN(Learned learned, LearnIteratively(tracker, reference, learning, context));
+  POISE_ASSIGN_OR_RETURN(Correction correction, Assess(variant, reference, learned.best));
+  correction.rollouts = std::move(learned.scores);
+  correction.timed_out = learned.timed_out;
+  return correction;
 }
 
 }  // namespace poise::correction

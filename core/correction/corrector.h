@@ -14,6 +14,7 @@ struct Correction {
   /// lacks (toes, fingers) keep their rotations. Stands on the floor y = 0.
   motion::Clip clip;
   TrackingScore score;
+  std::string effort;                   ///< whose recording this is: instant | fast | full
   std::vector<TrackingScore> rollouts;  ///< of the effort `fast`, in their order; else the score
   bool timed_out = false;               ///< learning met its deadline; this is the best so far
   /// Both by the character's own bodies, against the floor that it stands on.
@@ -39,6 +40,16 @@ class Corrector {
   StatusOr<Correction> Correct(const motion::Clip& variant,
                                const base::RunContext& context = {}) const;
 
+  /// The steps of Correct, for whoever tracks in another way.
+  /// The variant as the character is to imitate it. Errors: WRONG_SKELETON, CLIP_TOO_SHORT.
+  StatusOr<ReferenceMotion> Reference(const motion::Clip& variant) const;
+  /// Of references at this rate.
+  StatusOr<MotionTracker> Tracker(double frame_rate) const;
+  /// What a recording is worth; `reference` is that of `variant`.
+  StatusOr<Correction> Assess(const motion::Clip& variant, const ReferenceMotion& reference,
+                              const Recording& recording) const;
+
+  const physics::HumanoidModelPtr& shared_model() const { return model_; }
   const physics::HumanoidModel& model() const { return *model_; }
   const CorrectionConfig& config() const { return config_; }
 

@@ -13,13 +13,6 @@ using enum motion::JointRole;
 
 constexpr std::array kEndEffectors = {kRightAnkle, kLeftAnkle, kRightWrist, kLeftWrist};
 
-// Turn about the vertical that takes the root's heading to the world's.
-Quat HeadingInverse(const Quat& root) {
-  Vec3 axis = root * Vec3::UnitX();
-  if (std::hypot(axis.x(), axis.z()) < 0.1) axis = root * Vec3::UnitZ();
-  return Quat(Eigen::AngleAxisd(std::atan2(axis.z(), axis.x()), Vec3::UnitY()));
-}
-
 double Squared(double x) { return x * x; }
 
 double RootError(const physics::State& a, const physics::State& b) {
@@ -78,6 +71,12 @@ std::vector<base::Field> RewardConfig::Fields() {
       base::Number("residual_scale", &residual_scale, 0, 1e6),
       base::Flag("residual_squared", &residual_squared),
   };
+}
+
+Quat HeadingInverse(const Quat& root) {
+  Vec3 axis = root * Vec3::UnitX();
+  if (std::hypot(axis.x(), axis.z()) < 0.1) axis = root * Vec3::UnitZ();
+  return Quat(Eigen::AngleAxisd(std::atan2(axis.z(), axis.x()), Vec3::UnitY()));
 }
 
 Features ComputeFeatures(const physics::HumanoidModel& model, const physics::State& state) {

@@ -43,6 +43,10 @@ struct RewardConfig {
   std::vector<base::Field> Fields();
 };
 
+/// Turn about the vertical that takes a root's heading to the world's X axis: into the frame of the
+/// heading. Of a root's X axis, or its Z axis where that points up.
+Quat HeadingInverse(const Quat& root);
+
 /// What a state shows of itself to the reward; of a reference computed once.
 struct Features {
   physics::State state;

@@ -64,16 +64,22 @@ std::vector<base::Field> LearningConfig::Fields() {
 }
 
 StatusOr<Learned> LearnIteratively(MotionTracker& tracker, const ReferenceMotion& reference,
-                                   const LearningConfig& config, const base::RunContext& context) {
+                                   const LearningConfig& config, const base::RunContext& context,
+                                   const Commander& steered) {
   LearningConfig checked = config;
   POISE_RETURN_IF_ERROR(base::CheckRanges(checked.Fields()));
   TrackingOffsets offsets(reference.num_frames(), Speeds::Zero());
-  POISE_ASSIGN_OR_RETURN(Recording first, tracker.Track(reference, context, &offsets));
+  const Commander commander = [&](const TrackingEpisode& episode) {
+    FrameCommand command = steered ? steered(episode) : FrameCommand();
+    command.offset += offsets[episode.frame()];
+    return command;
+  };
+  POISE_ASSIGN_OR_RETURN(Recording first, tracker.Track(reference, context, commander));
   Learned learned{.best = first, .scores = {first.score}};
   std::vector<Speeds> lags = std::move(first.lags);
   while (static_cast<int>(learned.scores.size()) < config.rollouts) {
     Learn(lags, reference.frame_rate(), config, offsets);
-    auto next = tracker.Track(reference, context, &offsets);
+    auto next = tracker.Track(reference, context, commander);
     if (absl::IsDeadlineExceeded(next.status())) {
       learned.timed_out = true;
       break;

@@ -40,9 +40,12 @@ struct Learned {
 
 /// Errors: those of MotionTracker::Track of the first rollout; a later one that diverges ends
 /// learning, one that meets the deadline of `context` sets timed_out. kCancelled at any time.
+/// `steered` says what is asked of the body beside what is learned (a policy's actions); may be
+/// empty.
 StatusOr<Learned> LearnIteratively(MotionTracker& tracker, const ReferenceMotion& reference,
                                    const LearningConfig& config,
-                                   const base::RunContext& context = {});
+                                   const base::RunContext& context = {},
+                                   const Commander& steered = {});
 
 }  // namespace poise::correction
 

@@ -119,9 +119,8 @@ Speeds TrackingEpisode::FeedForward(const State& wanted, const Speeds& accelerat
   return forces + StanceTorques(tree, physics::ComputeFrames(tree, now), stances);
 }
 
-void TrackingEpisode::HoldResidual(const State& wanted) {
+void TrackingEpisode::HoldResidual(const State& wanted, const physics::ResidualGains& gains) {
   const State& now = world_.state();
-  const physics::ResidualGains gains = model_->residual_gains().Scaled(config_.residual_factor);
   const Speeds lag = wanted.speeds - now.speeds;
   drive_.feed_forward.head<3>() =
       gains.stiffness * (wanted.root_position - now.root_position) + gains.damping * lag.head<3>();
@@ -144,10 +143,12 @@ void TrackingEpisode::Aim(double time_s, const FrameCommand& command) {
   if (config_.feed_forward) {
     drive_.feed_forward = FeedForward(wanted, reference_->AccelerationAt(time_s), command.offset);
   }
+  const physics::ResidualGains gains =
+      model_->residual_gains().Scaled(config_.residual_factor * command.residual_scale);
   if (config_.implicit_residual) {
-    drive_.residual = model_->residual_gains().Scaled(config_.residual_factor);
+    drive_.residual = gains;
   } else {
-    HoldResidual(wanted);
+    HoldResidual(wanted, gains);
   }
   drive_.feed_forward.head<3>() += command.outer_force;
   drive_.feed_forward.segment<3>(3) += command.outer_torque;

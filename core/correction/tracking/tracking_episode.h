@@ -12,6 +12,7 @@ struct FrameCommand {
   /// Added to each joint's target, as a rotation vector in the target's axes; at the root a wrench
   /// that the stance legs exert more [N, N m], in world axes.
   physics::Speeds offset = physics::Speeds::Zero();
+  double residual_scale = 1;         ///< [0 to 1] on the gains of the PD-residual
   Vec3 outer_force = Vec3::Zero();   ///< [N] on the pelvis, beside the PD-residual; world axes
   Vec3 outer_torque = Vec3::Zero();  ///< [N m]
 };
@@ -55,7 +56,7 @@ class TrackingEpisode {
   void Aim(double time_s, const FrameCommand& command);
   physics::Speeds FeedForward(const physics::State& wanted, const physics::Speeds& acceleration,
                               const physics::Speeds& offset) const;
-  void HoldResidual(const physics::State& wanted);
+  void HoldResidual(const physics::State& wanted, const physics::ResidualGains& gains);
   bool Failed(double time_s) const;
 
   physics::HumanoidModelPtr model_;

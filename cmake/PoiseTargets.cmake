@@ -68,3 +68,31 @@ function(poise_test name)
                SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
                ENVIRONMENT "${POISE_TEST_ENVIRONMENT}")
 endfunction()
+
+# poise_link_torch(TARGET)
+#   Links LibTorch. Debian's is a system package, but its target does not say so.
+function(poise_link_torch target)
+  get_target_property(torch_includes torch INTERFACE_INCLUDE_DIRECTORIES)
+  target_include_directories(${target} SYSTEM PRIVATE ${torch_includes})
+  target_link_libraries(${target} PRIVATE torch)
+  if(POISE_CCACHE)
+    # What ccache needs to know of precompiled headers.
+    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER
+      "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${POISE_CCACHE}")
+    target_compile_options(${target} PRIVATE -fpch-preprocess)
+  endif()
+endfunction()
+
+# poise_use_torch(TARGET SOURCE...)
+#   Links LibTorch, and gives those sources, which include <torch/torch.h>, its precompiled header.
+#   The other sources of the target stay without it: loading it costs them more than they need.
+function(poise_use_torch target)
+  poise_link_torch(${target})
+  target_precompile_headers(${target} REUSE_FROM poise_torch_header)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    if(NOT source IN_LIST ARGN)
+      set_source_files_properties("${source}" PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endif()
+  endforeach()
+endfunction()

@@ -15,6 +15,7 @@
 #include "client/variant_stream.h"
 #include "core/api/augment_spec.h"
 #include "core/api/job.h"
+#include "core/api/predict_query.h"
 #include "core/base/status.h"
 
 namespace poise::client {
@@ -61,6 +62,11 @@ class Client {
   /// when uploaded (then the joints come back in depth-first order).
   /// Errors: those of AugmentSpec::Validate here, the others from the stream.
   StatusOr<std::unique_ptr<VariantStream>> Augment(api::AugmentSpec spec);
+
+  /// What comes next. Of arrays only the last kMaxPast are sent.
+  /// Errors: those of PredictQuery::Validate here, the others from the server.
+  StatusOr<api::Forecast> Predict(api::PredictQuery query);
+  static constexpr absl::Duration kMaxPast = absl::Seconds(30);  ///< more than any model looks at
 
   /// Stores a file on the server; the same bytes get the same name. Goes on by itself when the
   /// connection breaks. Errors: kInternal CORRUPTED when the server stored something else; those of

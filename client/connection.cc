@@ -13,6 +13,7 @@ Connection::Connection(ClientOptions options)
     : options_(std::move(options)),
       channel_(MakeChannel(options_)),
       augmentation_(v1::AugmentationService::NewStub(channel_)),
+      prediction_(v1::PredictionService::NewStub(channel_)),
       artifact_(v1::ArtifactService::NewStub(channel_)),
       job_(v1::JobService::NewStub(channel_)),
       worker_(v1::WorkerService::NewStub(channel_)),

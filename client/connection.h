@@ -11,6 +11,7 @@
 #include "poise/v1/artifact_service.grpc.pb.h"
 #include "poise/v1/augmentation_service.grpc.pb.h"
 #include "poise/v1/job_service.grpc.pb.h"
+#include "poise/v1/prediction_service.grpc.pb.h"
 #include "poise/v1/worker_service.grpc.pb.h"
 
 namespace poise::client {
@@ -35,6 +36,7 @@ class Connection {
 
   const ClientOptions& options() const { return options_; }
   v1::AugmentationService::Stub& augmentation() const { return *augmentation_; }
+  v1::PredictionService::Stub& prediction() const { return *prediction_; }
   v1::ArtifactService::Stub& artifact() const { return *artifact_; }
   v1::JobService::Stub& job() const { return *job_; }
   v1::WorkerService::Stub& worker() const { return *worker_; }
@@ -45,6 +47,7 @@ class Connection {
   const ClientOptions options_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::AugmentationService::Stub> augmentation_;
+  std::unique_ptr<v1::PredictionService::Stub> prediction_;
   std::unique_ptr<v1::ArtifactService::Stub> artifact_;
   std::unique_ptr<v1::JobService::Stub> job_;
   std::unique_ptr<v1::WorkerService::Stub> worker_;

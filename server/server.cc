@@ -66,6 +66,7 @@ Server::Server(const ServerConfig& config, engine::Engine& engine, base::Telemet
       admission_(config.admission, telemetry),
       store_calls_(config.store_threads),
       augmentation_(engine, admission_, config.methods.augment, telemetry),
+      prediction_(engine, admission_, config.methods),
       artifacts_(engine.artifacts(), admission_, config.methods),
       jobs_(engine.jobs(), engine.artifacts(), store_calls_, admission_, config.methods, drain_,
             config.snapshot_interval),
@@ -85,6 +86,7 @@ Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
   int port = 0;
   builder.AddListeningPort(config.listen, grpc::InsecureServerCredentials(), &port);
   builder.RegisterService(&augmentation_);
+  builder.RegisterService(&prediction_);
   builder.RegisterService(&artifacts_);
   builder.RegisterService(&jobs_);
   builder.RegisterService(&operations_);
@@ -105,9 +107,9 @@ Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
   }
   address_ = fmt::format("{}:{}", config.listen.substr(0, config.listen.rfind(':')), port);
   for (const char* service :
-       {v1::AugmentationService::service_full_name(), v1::ArtifactService::service_full_name(),
-        v1::JobService::service_full_name(), v1::WorkerService::service_full_name(),
-        v1::AdminService::service_full_name(),
+       {v1::AugmentationService::service_full_name(), v1::PredictionService::service_full_name(),
+        v1::ArtifactService::service_full_name(), v1::JobService::service_full_name(),
+        v1::WorkerService::service_full_name(), v1::AdminService::service_full_name(),
         google::longrunning::Operations::service_full_name()}) {
     server_->GetHealthCheckService()->SetServingStatus(service, true);
   }

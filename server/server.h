@@ -17,6 +17,7 @@
 #include "server/handlers/drain_state.h"
 #include "server/handlers/job_handler.h"
 #include "server/handlers/operations_handler.h"
+#include "server/handlers/prediction_handler.h"
 #include "server/handlers/unknown_method_handler.h"
 #include "server/handlers/worker_handler.h"
 
@@ -62,6 +63,7 @@ class Server {
   Admission admission_;
   base::ThreadPool store_calls_;
   AugmentationHandler augmentation_;
+  PredictionHandler prediction_;
   ArtifactHandler artifacts_;
   JobHandler jobs_;
   OperationsHandler operations_;

@@ -17,6 +17,8 @@ Command AddConvertCommand(CLI::App& app, const Console& console);
 Command AddFkCommand(CLI::App& app, const Console& console);
 /// Variants of clips, made by a server (augment_command.cc).
 Command AddAugmentCommand(CLI::App& app, const Console& console);
+/// What comes next in a motion (predict_command.cc).
+Command AddPredictCommand(CLI::App& app, const Console& console);
 /// Whether a server takes calls (health_command.cc).
 Command AddHealthCommand(CLI::App& app, const Console& console);
 /// Long work on a server (jobs_command.cc, jobs/).

@@ -32,6 +32,11 @@ StatusOr<CatalogClip> Decode(const File& file, std::string_view data, std::strin
 
 }  // namespace
 
+motion::SourceConvention FileConvention(const CatalogClip& clip) {
+  const bool was_bvh = clip.convention && clip.convention->format == motion::ClipFormat::kBvh;
+  return was_bvh ? *clip.convention : motion::UsualBvhConvention();
+}
+
 StatusOr<CatalogClip> ClipCatalog::Resolve(api::ClipSource source) const {
   if (auto* clip = std::get_if<motion::Clip>(&source.clip)) {
     return WithRoles(std::move(*clip), std::nullopt, source.joint_roles);

@@ -17,6 +17,9 @@ struct CatalogClip {
   std::optional<motion::SourceConvention> convention;
 };
 
+/// How a variant of the clip is written: as its file was when that was BVH, else as usual.
+motion::SourceConvention FileConvention(const CatalogClip& clip);
+
 /// Turns the clips that callers name, in whatever form, into clips in memory.
 /// Threads: Resolve may be called from any thread.
 class ClipCatalog {

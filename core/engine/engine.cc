@@ -11,13 +11,6 @@
 namespace poise::engine {
 namespace {
 
-// A BVH file is written as it was read; what came as arrays or in another format, as usual.
-motion::SourceConvention FileConvention(CatalogClip& clip) {
-  const bool was_bvh = clip.convention && clip.convention->format == motion::ClipFormat::kBvh;
-  if (was_bvh) return *std::move(clip.convention);
-  return motion::UsualBvhConvention();
-}
-
 EngineConfig WithDataDir(EngineConfig config) {
   config.jobs.data_dir = config.data_dir;
   return config;
@@ -43,6 +36,7 @@ Engine::Engine(EngineConfig config, std::unique_ptr<artifacts::ArtifactStore> ar
     : config_(WithDataDir(std::move(config))),
       artifacts_(std::move(artifacts)),
       jobs_(std::make_unique<JobManager>(config_.jobs, std::move(store), *artifacts_, telemetry)),
+      forecaster_(std::make_unique<Forecaster>(*artifacts_)),
       sources_resolved_(telemetry.counter("poise_augment_sources_total",
                                           "Source clips decoded for augmentation", {})),
       compute_(std::make_unique<base::ThreadPool>(config_.compute_threads)) {}

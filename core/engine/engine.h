@@ -11,6 +11,7 @@
 #include "core/base/telemetry.h"
 #include "core/base/thread_pool.h"
 #include "core/engine/augment_run.h"
+#include "core/engine/forecaster.h"
 #include "core/engine/job_manager.h"
 
 namespace poise::engine {
@@ -39,6 +40,7 @@ class Engine {
   StatusOr<std::unique_ptr<AugmentRun>> PrepareAugment(api::AugmentSpec spec,
                                                        const base::RunContext& context);
 
+  Forecaster& forecaster() { return *forecaster_; }
   artifacts::ArtifactStore& artifacts() { return *artifacts_; }
   JobManager& jobs() { return *jobs_; }
   base::ThreadPool& compute() { return *compute_; }
@@ -50,6 +52,7 @@ class Engine {
   EngineConfig config_;
   std::unique_ptr<artifacts::ArtifactStore> artifacts_;
   std::unique_ptr<JobManager> jobs_;
+  std::unique_ptr<Forecaster> forecaster_;
   base::Counter& sources_resolved_;
   std::unique_ptr<base::ThreadPool> compute_;
 };

@@ -11,6 +11,26 @@
 namespace poise::convert {
 namespace {
 
+// Everything but the sources.
+StatusOr<api::AugmentSpec> FromScalars(const v1::AugmentRequest& request) {
+  api::AugmentSpec spec;
+  if (!request.method().empty()) spec.method = request.method();
+  if (!request.action_class().empty()) spec.action_class = request.action_class();
+  if (!request.preset().empty()) spec.preset = request.preset();
+  if (request.variants_per_source() != 0) spec.variants_per_source = request.variants_per_source();
+  spec.seed = request.seed();
+  spec.overrides.insert(request.overrides().begin(), request.overrides().end());
+  spec.with_plausibility = !request.skip_plausibility();
+  POISE_ASSIGN_OR_RETURN(spec.output, convert::FromProto(request.output()));
+  return spec;
+}
+
+}  // namespace
+
+v1::OutputEncoding ToProto(api::OutputEncoding output) {
+  return output == api::OutputEncoding::kBvh ? v1::OUTPUT_ENCODING_BVH : v1::OUTPUT_ENCODING_ARRAYS;
+}
+
 StatusOr<api::OutputEncoding> FromProto(v1::OutputEncoding output) {
   switch (output) {
     case v1::OUTPUT_ENCODING_UNSPECIFIED:
@@ -25,22 +45,6 @@ StatusOr<api::OutputEncoding> FromProto(v1::OutputEncoding output) {
   }
 }
 
-// Everything but the sources.
-StatusOr<api::AugmentSpec> FromScalars(const v1::AugmentRequest& request) {
-  api::AugmentSpec spec;
-  if (!request.method().empty()) spec.method = request.method();
-  if (!request.action_class().empty()) spec.action_class = request.action_class();
-  if (!request.preset().empty()) spec.preset = request.preset();
-  if (request.variants_per_source() != 0) spec.variants_per_source = request.variants_per_source();
-  spec.seed = request.seed();
-  spec.overrides.insert(request.overrides().begin(), request.overrides().end());
-  spec.with_plausibility = !request.skip_plausibility();
-  POISE_ASSIGN_OR_RETURN(spec.output, FromProto(request.output()));
-  return spec;
-}
-
-}  // namespace
-
 v1::AugmentRequest ToProto(const api::AugmentSpec& spec) {
   v1::AugmentRequest message;
   for (const api::ClipSource& source : spec.sources) *message.add_sources() = ToProto(source);
@@ -53,8 +57,7 @@ v1::AugmentRequest ToProto(const api::AugmentSpec& spec) {
     (*message.mutable_overrides())[ValidUtf8(key)] = ValidUtf8(value);
   }
   message.set_skip_plausibility(!spec.with_plausibility);
-  message.set_output(spec.output == api::OutputEncoding::kBvh ? v1::OUTPUT_ENCODING_BVH
-                                                              : v1::OUTPUT_ENCODING_ARRAYS);
+  message.set_output(ToProto(spec.output));
   return message;
 }
 

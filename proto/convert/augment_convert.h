@@ -7,6 +7,10 @@
 
 namespace poise::convert {
 
+v1::OutputEncoding ToProto(api::OutputEncoding output);
+/// Errors: kInvalidArgument UNKNOWN_OUTPUT.
+StatusOr<api::OutputEncoding> FromProto(v1::OutputEncoding output);
+
 v1::AugmentRequest ToProto(const api::AugmentSpec& spec);
 /// Absent fields take the defaults of AugmentSpec. Errors: those of AugmentSpec::Validate and of
 /// each source (field "sources[2].clip.rotations"), kInvalidArgument UNKNOWN_OUTPUT.

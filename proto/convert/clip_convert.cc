@@ -13,15 +13,15 @@ namespace {
 using motion::Quat;
 using motion::Vec3;
 
-Status WrongShape(const v1::Clip& clip, const char* field, int64_t got,
+Status WrongShape(const std::string& clip, const char* field, int64_t got,
                   const std::string& expected) {
   return base::InvalidArgument(
       "WRONG_SHAPE", field,
-      fmt::format("clip '{}': {} has {} numbers, expected {}", clip.name(), field, got, expected));
+      fmt::format("clip '{}': {} has {} numbers, expected {}", clip, field, got, expected));
 }
 
 // Room for `count` more numbers, which the caller writes.
-float* Append(size_t count, google::protobuf::RepeatedField<float>& numbers) {
+float* Append(size_t count, FloatArray& numbers) {
   numbers.Reserve(numbers.size() + static_cast<int>(count));
   return numbers.AddNAlreadyReserved(static_cast<int>(count));
 }
@@ -85,23 +85,55 @@ StatusOr<motion::SkeletonPtr> FromProto(const v1::Skeleton& skeleton) {
   return motion::Skeleton::Create(std::move(joints));
 }
 
-v1::Clip ToProto(const motion::Clip& clip) {
-  v1::Clip message;
-  message.set_name(ValidUtf8(clip.name()));
-  *message.mutable_skeleton() = ToProto(*clip.skeleton());
-  message.set_frame_rate(clip.frame_rate());
-  float* position = Append(3 * clip.root_positions().size(), *message.mutable_root_positions());
+void WriteArrays(const motion::Clip& clip, FloatArray& root_positions, FloatArray& rotations) {
+  float* position = Append(3 * clip.root_positions().size(), root_positions);
   for (const Vec3& value : clip.root_positions()) {
     for (int axis = 0; axis < 3; ++axis) *position++ = static_cast<float>(value[axis]);
   }
-  float* rotation = Append(4 * clip.rotations().size(), *message.mutable_rotations());
+  float* rotation = Append(4 * clip.rotations().size(), rotations);
   for (const Quat& value : clip.rotations()) {
     *rotation++ = static_cast<float>(value.w());
     *rotation++ = static_cast<float>(value.x());
     *rotation++ = static_cast<float>(value.y());
     *rotation++ = static_cast<float>(value.z());
   }
+}
+
+v1::Clip ToProto(const motion::Clip& clip) {
+  v1::Clip message;
+  message.set_name(ValidUtf8(clip.name()));
+  *message.mutable_skeleton() = ToProto(*clip.skeleton());
+  message.set_frame_rate(clip.frame_rate());
+  WriteArrays(clip, *message.mutable_root_positions(), *message.mutable_rotations());
   return message;
+}
+
+StatusOr<motion::Clip> ReadArrays(ArraysOf clip, const FloatArray& root_positions,
+                                  const FloatArray& rotation_numbers) {
+  if (root_positions.size() % 3 != 0) {
+    return WrongShape(clip.name, "root_positions", root_positions.size(), "frames x 3");
+  }
+  const int64_t frames = root_positions.size() / 3;
+  const int64_t joints = clip.skeleton->num_joints();
+  if (rotation_numbers.size() != frames * joints * 4) {
+    return WrongShape(
+        clip.name, "rotations", rotation_numbers.size(),
+        fmt::format("{} frames x {} joints x 4 = {}", frames, joints, frames * joints * 4));
+  }
+  std::vector<Vec3> positions(frames);
+  const float* position = root_positions.data();
+  for (Vec3& value : positions) {
+    value = Vec3(position[0], position[1], position[2]);
+    position += 3;
+  }
+  std::vector<Quat> rotations(frames * joints);
+  const float* rotation = rotation_numbers.data();
+  for (Quat& value : rotations) {
+    value = Quat(rotation[0], rotation[1], rotation[2], rotation[3]);
+    rotation += 4;
+  }
+  return motion::Clip::Create(std::move(clip.name), std::move(clip.skeleton), clip.frame_rate,
+                              std::move(positions), std::move(rotations));
 }
 
 StatusOr<motion::Clip> FromProto(const v1::Clip& clip) {
@@ -109,30 +141,8 @@ StatusOr<motion::Clip> FromProto(const v1::Clip& clip) {
   if (!skeleton.ok()) {
     return base::Annotate(skeleton.status(), fmt::format("clip '{}'", clip.name()));
   }
-  if (clip.root_positions_size() % 3 != 0) {
-    return WrongShape(clip, "root_positions", clip.root_positions_size(), "frames x 3");
-  }
-  const int64_t frames = clip.root_positions_size() / 3;
-  const int64_t joints = (*skeleton)->num_joints();
-  if (clip.rotations_size() != frames * joints * 4) {
-    return WrongShape(
-        clip, "rotations", clip.rotations_size(),
-        fmt::format("{} frames x {} joints x 4 = {}", frames, joints, frames * joints * 4));
-  }
-  std::vector<Vec3> positions(frames);
-  const float* position = clip.root_positions().data();
-  for (Vec3& value : positions) {
-    value = Vec3(position[0], position[1], position[2]);
-    position += 3;
-  }
-  std::vector<Quat> rotations(frames * joints);
-  const float* rotation = clip.rotations().data();
-  for (Quat& value : rotations) {
-    value = Quat(rotation[0], rotation[1], rotation[2], rotation[3]);
-    rotation += 4;
-  }
-  return motion::Clip::Create(clip.name(), *std::move(skeleton), clip.frame_rate(),
-                              std::move(positions), std::move(rotations));
+  return ReadArrays({clip.name(), *std::move(skeleton), clip.frame_rate()}, clip.root_positions(),
+                    clip.rotations());
 }
 
 v1::ClipFormat ToProto(motion::ClipFormat format) {

@@ -17,7 +17,21 @@ v1::Skeleton ToProto(const motion::Skeleton& skeleton);
 /// Errors: those of Skeleton::Create.
 StatusOr<motion::SkeletonPtr> FromProto(const v1::Skeleton& skeleton);
 
-/// Numbers lose their last bits: single precision on the wire.
+/// The arrays of a clip, which several messages hold: root_positions (frames, 3), rotations
+/// (frames, joints, 4) w x y z. Numbers lose their last bits: single precision on the wire.
+using FloatArray = google::protobuf::RepeatedField<float>;
+void WriteArrays(const motion::Clip& clip, FloatArray& root_positions, FloatArray& rotations);
+
+/// What the arrays do not say.
+struct ArraysOf {
+  std::string name;
+  motion::SkeletonPtr skeleton;
+  double frame_rate = 0;
+};
+/// Errors: kInvalidArgument WRONG_SHAPE, those of Clip::Create.
+StatusOr<motion::Clip> ReadArrays(ArraysOf clip, const FloatArray& root_positions,
+                                  const FloatArray& rotation_numbers);
+
 v1::Clip ToProto(const motion::Clip& clip);
 /// Errors: kInvalidArgument WRONG_SHAPE, those of Skeleton::Create and Clip::Create.
 StatusOr<motion::Clip> FromProto(const v1::Clip& clip);

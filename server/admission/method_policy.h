@@ -21,6 +21,9 @@ struct MethodPolicy {
 /// The methods of this server. A training job may read one stream of variants all night.
 struct MethodPolicies {
   MethodPolicy augment{.default_deadline = absl::Hours(1), .max_deadline = absl::Hours(24)};
+  MethodPolicy predict{.default_deadline = absl::Seconds(30), .max_deadline = absl::Minutes(5)};
+  /// As long as somebody moves before a camera.
+  MethodPolicy predict_stream{.default_deadline = absl::Hours(1), .max_deadline = absl::Hours(24)};
   MethodPolicy upload{.default_deadline = absl::Minutes(10), .max_deadline = absl::Hours(1)};
   MethodPolicy get_upload{.default_deadline = absl::Minutes(1), .max_deadline = absl::Minutes(10)};
   MethodPolicy download{.default_deadline = absl::Minutes(10), .max_deadline = absl::Hours(1)};
@@ -40,9 +43,10 @@ struct MethodPolicies {
 
   /// The longest of all.
   absl::Duration longest() const {
-    return std::max({augment.max_deadline, upload.max_deadline, download.max_deadline,
-                     job.max_deadline, watch.max_deadline, job_result.max_deadline,
-                     wait_operation.max_deadline, worker.max_deadline, admin.max_deadline});
+    return std::max({augment.max_deadline, predict.max_deadline, predict_stream.max_deadline,
+                     upload.max_deadline, download.max_deadline, job.max_deadline,
+                     watch.max_deadline, job_result.max_deadline, wait_operation.max_deadline,
+                     worker.max_deadline, admin.max_deadline});
   }
 };
 

@@ -57,7 +57,7 @@ class Ppo {
   ~Ppo();
 
   /// One batch and one update. On any error all is as before the call, so it may be repeated.
-  /// Errors: those of the environments; kCancelled, kDeadlineExceeded of `context`; kInternal
+  /// Errors: those of the environments; kCancelled, kDeadlineExceeded of `context`; kOutOfRange
   /// NOT_FINITE with the tensor's name when an observation, a reward or a weight is not finite.
   StatusOr<IterationReport> Iterate(const base::RunContext& context = {});
 

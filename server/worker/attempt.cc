@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "core/base/fail_point.h"
+#include "core/runtime/jobs/child_message.h"
 #include "core/runtime/jobs/counting_runner.h"
 #include "core/runtime/jobs/deadline_runner.h"
+#include "core/runtime/jobs/job_json.h"
 #include "core/runtime/jobs/log_runner.h"
 #include "core/runtime/jobs/manifest_runner.h"
 #include "server/log.h"
@@ -68,6 +70,7 @@ StatusOr<jobs::RunOutput> Attempt::Execute() {
   input.seed = lease_.seed;
   input.trace_id = lease_.trace_id;
   input.folder = folder_;
+  POISE_ASSIGN_OR_RETURN(input.inputs, FetchInputs());
   input.checkpoint = FetchCheckpoint();
   if (input.checkpoint) input.checkpoint_step = lease_.checkpoint->step;
 
@@ -103,6 +106,28 @@ std::optional<std::string> Attempt::FetchCheckpoint() {
   // The result is the same from the beginning; it only takes longer.
   if (!stop_.cancelled()) Note(bytes.status(), "checkpoint_not_found");
   return std::nullopt;
+}
+
+Status Attempt::StopOr(const Status& status) const {
+  base::RunContext context;
+  context.cancellation = stop_;
+  POISE_RETURN_IF_ERROR(context.Check());
+  return status;
+}
+
+StatusOr<std::map<std::string, std::filesystem::path>> Attempt::FetchInputs() {
+  std::map<std::string, std::filesystem::path> inputs;
+  const std::filesystem::path folder = folder_ / jobs::kPrivateFolder / "inputs";
+  for (const std::string& artifact : jobs::ArtifactNamesIn(lease_.spec.parameters)) {
+    std::error_code ignored;
+    std::filesystem::create_directories(folder, ignored);
+    const std::filesystem::path path = folder / std::filesystem::path(artifact).filename();
+    const Status status = Persist([&] { return setting_.client.DownloadFile(artifact, path); },
+                                  [this] { return stop_.cancelled(); });
+    if (!status.ok()) return StopOr(status);
+    inputs[artifact] = path;
+  }
+  return inputs;
 }
 
 absl::Duration Attempt::StopGrace() const {

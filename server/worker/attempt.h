@@ -2,6 +2,7 @@
 #define POISE_SERVER_WORKER_ATTEMPT_H_
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ class Attempt {
  private:
   StatusOr<jobs::RunOutput> Execute();
   std::optional<std::string> FetchCheckpoint();
+  StatusOr<std::map<std::string, std::filesystem::path>> FetchInputs();
+  // The wish to stop, if there is one: it explains what failed.
+  Status StopOr(const Status& status) const;
   absl::Duration StopGrace() const;
   jobs::ChildProcessConfig ChildConfig() const;
   void HandIn(const StatusOr<jobs::RunOutput>& output);

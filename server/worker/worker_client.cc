@@ -194,6 +194,10 @@ StatusOr<std::string> WorkerClient::Download(const std::string& artifact) {
   return base::Internal("CORRUPTED", "what came for '" + artifact + "' does not hash to its name");
 }
 
+Status WorkerClient::DownloadFile(const std::string& artifact, const std::filesystem::path& path) {
+  return client::DownloadToFile(connection_, artifact, path);
+}
+
 bool IsDefinite(const Status& status) {
   if (base::ErrorReason(status) == "CORRUPTED") return true;  // and stays so
   switch (status.code()) {

@@ -62,6 +62,7 @@ class WorkerClient {
   StatusOr<std::string> Upload(std::string_view bytes);
   StatusOr<std::string> UploadFile(const std::filesystem::path& path);
   StatusOr<std::string> Download(const std::string& artifact);
+  Status DownloadFile(const std::string& artifact, const std::filesystem::path& path);
 
  private:
   const client::Connection connection_;

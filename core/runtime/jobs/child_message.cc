@@ -35,17 +35,24 @@ Json OutputToJson(const RunOutput& output) {
     files.push_back(
         {{"name", file.name}, {"path", file.path.string()}, {"media_type", file.media_type}});
   }
-  return files;
+  return {{"files", std::move(files)}, {"report", output.report}};
 }
 
-RunOutput OutputFromJson(const Json& files) {
+RunOutput OutputFromJson(const Json& json) {
   RunOutput output;
-  for (const Json& file : files) {
+  output.report = json.at("report");
+  for (const Json& file : json.at("files")) {
     output.files.push_back({.name = file.at("name").get<std::string>(),
                             .path = file.at("path").get<std::string>(),
                             .media_type = file.at("media_type").get<std::string>()});
   }
   return output;
+}
+
+Json InputsToJson(const std::map<std::string, std::filesystem::path>& inputs) {
+  Json json = Json::object();
+  for (const auto& [artifact, path] : inputs) json[artifact] = path.string();
+  return json;
 }
 
 std::string Line(const Json& json) { return ToJson(json) + "\n"; }
@@ -85,6 +92,7 @@ std::string EncodeLine(const ChildStart& start) {
                {"seed", input.seed},
                {"trace_id", input.trace_id},
                {"folder", input.folder.string()},
+               {"inputs", InputsToJson(input.inputs)},
                {"checkpoint_file", start.checkpoint_file.string()},
                {"checkpoint_step", input.checkpoint_step},
                {"checkpoint_interval_s", absl::ToDoubleSeconds(start.checkpoint_interval)}};
@@ -105,6 +113,9 @@ StatusOr<ChildStart> DecodeStart(std::string_view line) {
     input.seed = json.at("seed").get<uint64_t>();
     input.trace_id = json.at("trace_id").get<std::string>();
     input.folder = json.at("folder").get<std::string>();
+    for (const auto& [artifact, path] : json.at("inputs").items()) {
+      input.inputs[artifact] = path.get<std::string>();
+    }
     input.checkpoint_step = json.at("checkpoint_step").get<int64_t>();
     start.checkpoint_file = json.at("checkpoint_file").get<std::string>();
     start.checkpoint_interval = absl::Seconds(json.at("checkpoint_interval_s").get<double>());

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "absl/time/time.h"
 #include "core/api/job.h"
+#include "core/base/json.h"
 #include "core/base/run_context.h"
 #include "core/base/status.h"
 
@@ -24,6 +26,8 @@ struct RunInput {
   uint64_t seed = 0;
   std::string trace_id;
   std::filesystem::path folder;  ///< empty at the start; goes away after the attempt
+  /// Files with the bytes of the artifacts that the parameters name, by "artifacts/<sha256>".
+  std::map<std::string, std::filesystem::path> inputs;
   /// Bytes given to SaveCheckpoint by an earlier attempt, with their step.
   std::optional<std::string> checkpoint;
   int64_t checkpoint_step = 0;
@@ -38,6 +42,7 @@ struct OutputFile {
 
 struct RunOutput {
   std::vector<OutputFile> files;
+  base::Json report;  ///< for the manifest: scores and the like; null when there is none
 };
 
 /// Seed, progress, cancellation and deadline of an attempt, and the way to its checkpoints.

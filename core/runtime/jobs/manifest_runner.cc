@@ -65,9 +65,10 @@ StatusOr<RunOutput> ManifestRunner::Run(const RunInput& input, const JobContext&
     POISE_ASSIGN_OR_RETURN(base::Json description, Describe(file));
     files.push_back(std::move(description));
   }
-  const base::Json manifest = {{"kind", input.spec.kind},    {"parameters", input.spec.parameters},
-                               {"seed", input.seed},         {"input_sha256", InputHash(input)},
-                               {"version", base::Version()}, {"files", std::move(files)}};
+  base::Json manifest = {{"kind", input.spec.kind},    {"parameters", input.spec.parameters},
+                         {"seed", input.seed},         {"input_sha256", InputHash(input)},
+                         {"version", base::Version()}, {"files", std::move(files)}};
+  if (!output.report.is_null()) manifest["report"] = output.report;
   OutputFile file{.name = kManifestName,
                   .path = input.folder / kManifestName,
                   .media_type = "application/json"};

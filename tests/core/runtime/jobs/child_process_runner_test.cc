@@ -78,6 +78,17 @@ TEST(ChildProcessRunnerTest, ResultIsThatOfTheSameProcess) {
   EXPECT_GT(child.usage().cpu_seconds, 0);
 }
 
+TEST(ChildProcessRunnerTest, InputsGetThereAndTheReportComesBack) {
+  AttemptFolder job(base::Json::object());
+  job.input.spec.kind = "inputs";
+  job.input.inputs = {{"artifacts/ab", "/tmp/one"}, {"artifacts/cd", "/tmp/with space"}};
+  ChildProcessRunner child(Config());
+  const StatusOr<RunOutput> output = job.Run(child);
+  ASSERT_TRUE(output.ok()) << output.status();
+  EXPECT_EQ(output->report,
+            (base::Json{{"artifacts/ab", "/tmp/one"}, {"artifacts/cd", "/tmp/with space"}}));
+}
+
 TEST(ChildProcessRunnerTest, UsageIsThatOfTheChild) {
   AttemptFolder busy(Selftest({{"steps", 20}, {"step_ms", 20}, {"busy", true}}));
   ChildProcessRunner child(Config());

@@ -1,5 +1,5 @@
-// child_program --child: the child of ChildProcessRunner, for jobs of kind selftest, and "litter",
-// which leaves a process behind and writes to its errors.
+// child_program --child: the child of ChildProcessRunner, for jobs of kind selftest; "litter",
+// which leaves a process behind and writes to its errors; and "inputs", which reports its inputs.
 // child_program --supervise FOLDER: runs a job that never ends in such a child.
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -37,7 +37,19 @@ class LitterRunner : public JobRunner {
   }
 };
 
+/// Reports where its inputs are.
+class InputsRunner : public JobRunner {
+ public:
+  StatusOr<RunOutput> Run(const RunInput& input, const JobContext&) override {
+    RunOutput output;
+    output.report = base::Json::object();
+    for (const auto& [artifact, path] : input.inputs) output.report[artifact] = path.string();
+    return output;
+  }
+};
+
 StatusOr<std::unique_ptr<JobRunner>> MakeRunner(std::string_view kind) {
+  if (kind == "inputs") return std::make_unique<InputsRunner>();
   if (kind == "litter") return std::make_unique<LitterRunner>();
   return MakeSelftestRunner();
 }

@@ -146,6 +146,7 @@ TEST(ManifestRunnerTest, SaysWhereAResultComesFromAndWhatBelongsToIt) {
   ManifestRunner runner(std::make_unique<Stand>([](const RunInput& input, const auto&) {
     RunOutput output;
     output.files = {Write(input, "b/two.txt", "22"), Write(input, "a.txt", "abc")};
+    output.report = {{"score", 0.1 + 0.2}};
     return output;
   }));
   const RunOutput output = *job.Run(runner);
@@ -162,6 +163,7 @@ TEST(ManifestRunnerTest, SaysWhereAResultComesFromAndWhatBelongsToIt) {
   EXPECT_EQ(manifest["files"][0]["size_bytes"], 3);
   EXPECT_EQ(manifest["files"][0]["sha256"], base::Sha256Hex("abc"));
   EXPECT_EQ(manifest["files"][1]["name"], "b/two.txt");
+  EXPECT_EQ(manifest["report"]["score"], 0.1 + 0.2);
 }
 
 TEST(ManifestRunnerTest, IsTheSameForAJobThatWasInterrupted) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "core/motion/kinematics/sole_estimate.h"
 #include "core/motion/metrics/floor_contact.h"
 #include "core/motion/metrics/self_penetration.h"
@@ -57,14 +59,22 @@ std::vector<base::Field> PlausibilityConfig::Fields() {
           base::Number("floor_band_m", &floor_band_m, 1e-4, 10)};
 }
 
+std::vector<base::Field> Plausibility::Fields() {
+  constexpr double kAny = std::numeric_limits<double>::max();
+  return {
+      base::Number("foot_skate_mps", &foot_skate_mps, -kAny, kAny),
+      base::Number("penetration_mean_m", &penetration_mean_m, -kAny, kAny),
+      base::Number("penetration_max_m", &penetration_max_m, -kAny, kAny),
+      base::Number("float_mean_m", &float_mean_m, -kAny, kAny),
+      base::Number("self_penetration_max_m", &self_penetration_max_m, -kAny, kAny),
+      base::Number("acceleration_rms_mps2", &acceleration_rms_mps2, -kAny, kAny),
+      base::Number("jerk_rms_mps3", &jerk_rms_mps3, -kAny, kAny),
+  };
+}
+
 base::Json ToJson(const Plausibility& plausibility) {
-  return {{"foot_skate_mps", plausibility.foot_skate_mps},
-          {"penetration_mean_m", plausibility.penetration_mean_m},
-          {"penetration_max_m", plausibility.penetration_max_m},
-          {"float_mean_m", plausibility.float_mean_m},
-          {"self_penetration_max_m", plausibility.self_penetration_max_m},
-          {"acceleration_rms_mps2", plausibility.acceleration_rms_mps2},
-          {"jerk_rms_mps3", plausibility.jerk_rms_mps3}};
+  Plausibility copy = plausibility;
+  return base::FieldsToJson(copy.Fields());
 }
 
 StatusOr<Plausibility> AssessPlausibility(const Clip& clip, const JointRoles& roles,

@@ -22,6 +22,8 @@ struct Plausibility {
   double self_penetration_max_m = 0;  ///< worst overlap of two bodies that are no neighbours
   double acceleration_rms_mps2 = 0;   ///< over joints and frames
   double jerk_rms_mps3 = 0;
+
+  std::vector<base::Field> Fields();
 };
 
 base::Json ToJson(const Plausibility& plausibility);

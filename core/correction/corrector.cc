@@ -34,12 +34,14 @@ StatusOr<MotionTracker> Corrector::Tracker(double frame_rate) const {
   return MotionTracker::Create(model_, config_.world, frame_rate, config_.tracking, config_.reward);
 }
 
+StatusOr<motion::Plausibility> Corrector::AssessReference(const ReferenceMotion& reference) const {
+  return motion::AssessPlausibility(reference.clip(), model_->shapes(), /*floor_height_m=*/0);
+}
+
 StatusOr<Correction> Corrector::Assess(const motion::Clip& variant,
                                        const ReferenceMotion& reference,
                                        const Recording& recording) const {
-  POISE_ASSIGN_OR_RETURN(
-      const motion::Plausibility before,
-      motion::AssessPlausibility(reference.clip(), model_->shapes(), /*floor_height_m=*/0));
+  POISE_ASSIGN_OR_RETURN(const motion::Plausibility before, AssessReference(reference));
   POISE_ASSIGN_OR_RETURN(
       const motion::Plausibility after,
       motion::AssessPlausibility(recording.clip, model_->shapes(), /*floor_height_m=*/0));

@@ -45,6 +45,8 @@ class Corrector {
   StatusOr<ReferenceMotion> Reference(const motion::Clip& variant) const;
   /// Of references at this rate.
   StatusOr<MotionTracker> Tracker(double frame_rate) const;
+  /// Correction::before: how plausible it looks by the character's own bodies.
+  StatusOr<motion::Plausibility> AssessReference(const ReferenceMotion& reference) const;
   /// What a recording is worth; `reference` is that of `variant`.
   StatusOr<Correction> Assess(const motion::Clip& variant, const ReferenceMotion& reference,
                               const Recording& recording) const;

@@ -22,4 +22,12 @@ std::string TimeOrderedId(absl::Time now) {
   return fmt::format("{:012x}{}", absl::ToUnixMillis(now), RandomHex(6));
 }
 
+std::string UniqueName(std::string_view wanted, std::set<std::string>& taken) {
+  std::string name(wanted);
+  for (int number = 2; !taken.insert(name).second; ++number) {
+    name = fmt::format("{}-{}", wanted, number);
+  }
+  return name;
+}
+
 }  // namespace poise::base

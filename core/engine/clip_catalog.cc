@@ -32,6 +32,11 @@ StatusOr<CatalogClip> Decode(const File& file, std::string_view data, std::strin
 
 }  // namespace
 
+StatusOr<CatalogClip> DecodeSource(const api::EncodedClip& file,
+                                   const motion::RoleOverrides& joint_roles) {
+  return Decode(file, file.data, "file.data", joint_roles);
+}
+
 motion::SourceConvention FileConvention(const CatalogClip& clip) {
   const bool was_bvh = clip.convention && clip.convention->format == motion::ClipFormat::kBvh;
   return was_bvh ? *clip.convention : motion::UsualBvhConvention();
@@ -42,7 +47,7 @@ StatusOr<CatalogClip> ClipCatalog::Resolve(api::ClipSource source) const {
     return WithRoles(std::move(*clip), std::nullopt, source.joint_roles);
   }
   if (const auto* file = std::get_if<api::EncodedClip>(&source.clip)) {
-    return Decode(*file, file->data, "file.data", source.joint_roles);
+    return DecodeSource(*file, source.joint_roles);
   }
   const auto& stored = std::get<api::StoredClip>(source.clip);
   const StatusOr<std::string> data = artifacts_.ReadAll(stored.artifact, kMaxFileBytes);

@@ -17,6 +17,11 @@ struct CatalogClip {
   std::optional<motion::SourceConvention> convention;
 };
 
+/// A file whose bytes are here. Errors: those of DecodeClip and JointRoles::Detect, with the field
+/// below the source ("file.data", "joint_roles").
+StatusOr<CatalogClip> DecodeSource(const api::EncodedClip& file,
+                                   const motion::RoleOverrides& joint_roles);
+
 /// How a variant of the clip is written: as its file was when that was BVH, else as usual.
 motion::SourceConvention FileConvention(const CatalogClip& clip);
 

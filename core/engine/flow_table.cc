@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/engine/correct_runner.h"
 #include "core/runtime/jobs/selftest_config.h"
 #include "core/runtime/jobs/selftest_runner.h"
 
@@ -12,6 +13,8 @@ const std::vector<Flow>& FlowTable() {
   static const std::vector<Flow> flows = {
       {"selftest", "steps that do nothing, for tests of the job system", jobs::ValidateSelftest,
        jobs::MakeSelftestRunner},
+      {"correct", "variants of clips that a simulated body has imitated", ValidateCorrect,
+       MakeCorrectRunner},
   };
   return flows;
 }

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "absl/time/clock.h"
+#include "client/client.h"
 #include "tests/support/job_calls.h"
 #include "tests/support/job_cluster.h"
 #include "tests/support/process_inspection.h"
@@ -55,6 +56,26 @@ Kill KillSomething(JobCluster& cluster, size_t& worker, bool supervisor, const a
   return kill;
 }
 
+// Kills a job of about `seconds` of work at random moments, each after some progress since the
+// last.
+std::vector<Kill> KillAgainAndAgain(JobCluster& cluster, size_t& worker, const JobCalls& calls,
+                                    const std::string& id, int kills, double seconds) {
+  std::mt19937 random{3};
+  std::vector<Kill> done;
+  for (int i = 0; i < kills; ++i) {
+    // While it runs, and after some progress in this attempt.
+    const double pause =
+        std::uniform_real_distribution<double>(0.3, 1.4)(random) * seconds / (kills + 1.0);
+    WaitForJob(calls, id,
+               [&](const api::Job& job) { return job.attempt > static_cast<int>(done.size()); });
+    absl::SleepFor(absl::Seconds(pause));
+    const auto job = calls.Get(id);
+    if (!job.ok() || job->state != api::JobState::kRunning) break;
+    done.push_back(KillSomething(cluster, worker, i % 2 == 0, *job));
+  }
+  return done;
+}
+
 // What a kill cost, from the job's own account.
 struct Cost {
   double lost_work_s = 0;  // steps done and not checkpointed
@@ -82,20 +103,8 @@ TEST(JobResumeTest, AJobKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne)
   const auto rough_job = calls.Create(LongJob(seconds, checkpoint_every, "rough"));
   ASSERT_TRUE(calm_job.ok() && rough_job.ok()) << calm_job.status() << rough_job.status();
 
-  std::mt19937 random{3};
-  std::vector<Kill> done;
-  for (int i = 0; i < kills; ++i) {
-    // While it runs, and after some progress in this attempt.
-    const double pause =
-        std::uniform_real_distribution<double>(0.3, 1.4)(random) * seconds / (kills + 1.0);
-    WaitForJob(calls, rough_job->id,
-               [&](const api::Job& job) { return job.attempt > static_cast<int>(done.size()); });
-    absl::SleepFor(absl::Seconds(pause));
-    const auto job = calls.Get(rough_job->id);
-    ASSERT_TRUE(job.ok());
-    if (job->state != api::JobState::kRunning) break;
-    done.push_back(KillSomething(cluster, rough, i % 2 == 0, *job));
-  }
+  const std::vector<Kill> done =
+      KillAgainAndAgain(cluster, rough, calls, rough_job->id, kills, seconds);
   EXPECT_GE(done.size(), static_cast<size_t>(kills) - 1);
 
   const auto timeout = absl::Seconds(seconds * 3 + 60);
@@ -124,6 +133,54 @@ TEST(JobResumeTest, AJobKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne)
   const auto events = calls.Events(rough_job->id);
   ASSERT_TRUE(events.ok());
   EXPECT_EQ(FaultOfHistory(resumed, *events), "");
+}
+
+// Twenty variants of a kick of this project.
+StatusOr<api::CreateJob> Correction(const std::string& server, const std::string& queue) {
+  client::ClientOptions options;
+  options.server = server;
+  POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options));
+  POISE_ASSIGN_OR_RETURN(const auto stored,
+                         client->UploadFile(std::string(POISE_SAMPLES_DIR) + "/kick.bvh"));
+  api::CreateJob request;
+  request.spec = {.kind = "correct",
+                  .parameters = {{"sources", {{{"artifact", stored.name}, {"name", "kick.bvh"}}}},
+                                 {"variants_per_source", 20}}};
+  request.seed = 11;
+  request.queue = queue;
+  return request;
+}
+
+TEST(JobResumeTest, ACorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne) {
+  const int kills = FromEnvironment("POISE_RESUME_KILLS", 5);
+  JobCluster cluster = NewCluster();
+  cluster.StartWorker({"--queues", "calm", "--slots", "1"});
+  const JobCalls calls(cluster.channel());
+  const auto calm_request = Correction(cluster.address(), "calm");
+  ASSERT_TRUE(calm_request.ok()) << calm_request.status();
+  const auto calm_job = calls.Create(*calm_request);
+  ASSERT_TRUE(calm_job.ok()) << calm_job.status();
+  const auto timeout = absl::Seconds(300);
+  const api::Job undisturbed = WaitForEnd(calls, calm_job->id, timeout);
+  ASSERT_EQ(undisturbed.state, api::JobState::kSucceeded) << undisturbed.error->message;
+  const double seconds = absl::ToDoubleSeconds(undisturbed.end_time - undisturbed.start_time);
+
+  size_t rough = cluster.StartWorker({"--queues", "rough", "--slots", "1"});
+  const auto rough_job = calls.Create(*Correction(cluster.address(), "rough"));
+  ASSERT_TRUE(rough_job.ok()) << rough_job.status();
+  const std::vector<Kill> done =
+      KillAgainAndAgain(cluster, rough, calls, rough_job->id, kills, seconds);
+  EXPECT_GE(done.size(), static_cast<size_t>(kills) - 1);
+  const api::Job resumed = WaitForEnd(calls, rough_job->id, timeout);
+  ASSERT_EQ(resumed.state, api::JobState::kSucceeded) << resumed.error->message;
+  EXPECT_EQ(resumed.attempt, static_cast<int>(done.size()) + 1);
+  ASSERT_EQ(undisturbed.artifacts.size(), 21u) << "twenty files and the manifest";
+  EXPECT_EQ(resumed.artifacts, undisturbed.artifacts) << "byte for byte: names are digests";
+  EXPECT_GT(resumed.attempts.back().from_step, 0) << "it went on, and did not begin again";
+  std::printf(
+      "a correction of %.1f s, killed %zu times: %d attempts, the last from step %ld of %ld\n",
+      seconds, done.size(), resumed.attempt, static_cast<long>(resumed.attempts.back().from_step),
+      static_cast<long>(resumed.progress.total));
 }
 
 TEST(JobResumeTest, AJobOutlivesItsServerWithinTheLease) {

@@ -13,7 +13,7 @@ TEST(FlowTableTest, EveryKindIsThereOnceAndMakesItsRunner) {
     EXPECT_TRUE(kinds.insert(flow.kind).second) << flow.kind;
     EXPECT_FALSE(flow.summary.empty()) << flow.kind;
     EXPECT_NE(flow.make_runner(), nullptr) << flow.kind;
-    EXPECT_TRUE(flow.validate(base::Json::object()).ok()) << flow.kind;
+    EXPECT_FALSE(flow.validate({{"no such parameter", 1}}).ok()) << flow.kind;
   }
   EXPECT_EQ((*FindFlow("selftest"))->kind, "selftest");
 }

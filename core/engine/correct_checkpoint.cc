@@ -1,0 +1,91 @@
+#include "core/engine/correct_checkpoint.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/api/correction_report.h"
+#include "core/base/json.h"
+
+namespace poise::engine {
+namespace {
+
+using base::Json;
+
+Status Corrupt() {
+  return base::MakeError(absl::StatusCode::kDataLoss, "CORRUPT_CHECKPOINT", "",
+                         "the checkpoint is none of this correction");
+}
+
+Json VariantJson(const pipeline::CorrectedVariant& variant) {
+  Json curve = Json::array();
+  for (api::RewardPoint point : variant.curve) {
+    curve.push_back(base::FieldsToJson(point.Fields()));
+  }
+  return {{"source_index", variant.source_index}, {"report", api::ToJson(variant.report)},
+          {"file_data", variant.file_data},       {"curve", std::move(curve)},
+          {"samples", variant.samples},           {"timed_out", variant.timed_out}};
+}
+
+StatusOr<pipeline::CorrectedVariant> VariantFromJson(const Json& json) {
+  pipeline::CorrectedVariant variant;
+  variant.source_index = json.at("source_index").get<int>();
+  POISE_ASSIGN_OR_RETURN(variant.report, api::CorrectedVariantFromJson(json.at("report")));
+  variant.file_data = json.at("file_data").get<std::string>();
+  for (const Json& point : json.at("curve")) {
+    POISE_RETURN_IF_ERROR(base::FieldsFromJson(point, variant.curve.emplace_back().Fields()));
+  }
+  variant.samples = json.at("samples").get<int64_t>();
+  variant.timed_out = json.at("timed_out").get<bool>();
+  return variant;
+}
+
+// Objects of "index" and what is there, of those that are there.
+template <typename Value, typename Encode>
+Json Present(const std::vector<std::optional<Value>>& values, Encode encode) {
+  Json json = Json::array();
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (values[i]) json.push_back({{"index", i}, {"value", encode(*values[i])}});
+  }
+  return json;
+}
+
+template <typename Value, typename Decode>
+Status ReadPresent(const Json& json, Decode decode, std::vector<std::optional<Value>>& values) {
+  for (const Json& entry : json) {
+    const auto index = entry.at("index").get<size_t>();
+    if (index >= values.size()) return Corrupt();
+    POISE_ASSIGN_OR_RETURN(values[index], decode(entry.at("value")));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+std::string EncodeCheckpoint(const pipeline::CorrectState& state) {
+  const Json json = {{"zero_policies",
+                      Present(state.zero_policies,
+                              [](const api::ZeroPolicyReport& zero) { return api::ToJson(zero); })},
+                     {"variants", Present(state.variants, VariantJson)},
+                     {"seconds", state.seconds}};
+  // Binary: exact numbers, and files as they are.
+  std::string bytes;
+  Json::to_cbor(json, bytes);
+  return bytes;
+}
+
+StatusOr<pipeline::CorrectState> DecodeCheckpoint(std::string_view bytes,
+                                                  pipeline::CorrectState empty) {
+  try {
+    const Json json = Json::from_cbor(bytes);
+    POISE_RETURN_IF_ERROR(
+        ReadPresent(json.at("zero_policies"), api::ZeroPolicyFromJson, empty.zero_policies));
+    POISE_RETURN_IF_ERROR(ReadPresent(json.at("variants"), VariantFromJson, empty.variants));
+    empty.seconds = json.at("seconds").get<double>();
+    return empty;
+  } catch (const Json::exception&) {
+    return Corrupt();
+  }
+}
+
+}  // namespace poise::engine

@@ -1,0 +1,28 @@
+#ifndef POISE_CORE_ENGINE_CORRECT_RUNNER_H_
+#define POISE_CORE_ENGINE_CORRECT_RUNNER_H_
+
+#include <memory>
+
+#include "core/base/json.h"
+#include "core/runtime/jobs/job_runner.h"
+
+namespace poise::engine {
+
+/// Runs jobs of kind `correct`: the parameters are an api::CorrectSpec whose sources are artifacts,
+/// the files are the corrected variants as BVH in the form of their source, and the report is
+/// {"clips": [api::CorrectedClipReport]}. What is done goes into checkpoints.
+/// Errors: those of the readers of clips with the field "sources[i]", of CorrectFlow and
+/// CorrectRun; kNotFound INPUT_NOT_FOUND; kDataLoss CORRUPT_CHECKPOINT.
+class CorrectRunner : public jobs::JobRunner {
+ public:
+  StatusOr<jobs::RunOutput> Run(const jobs::RunInput& input,
+                                const jobs::JobContext& context) override;
+};
+
+/// For the flow table.
+std::unique_ptr<jobs::JobRunner> MakeCorrectRunner();
+Status ValidateCorrect(const base::Json& parameters);
+
+}  // namespace poise::engine
+
+#endif  // POISE_CORE_ENGINE_CORRECT_RUNNER_H_

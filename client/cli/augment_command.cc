@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <set>
 
 #include "client/cli/augment_report.h"
 #include "client/cli/clip_input.h"
 #include "client/cli/commands.h"
 #include "client/cli/file_access.h"
 #include "client/cli/interrupt.h"
+#include "client/cli/jobs/job_options.h"
 #include "client/cli/progress_bar.h"
 #include "client/client.h"
+#include "core/base/identifier.h"
 #include "core/motion/metrics/plausibility.h"
 
 namespace poise::cli {
@@ -59,36 +62,13 @@ struct Work {
   std::vector<AugmentReport::Source> report_sources;
 };
 
-StatusOr<base::Overrides> ParseAssignments(const std::vector<std::string>& assignments) {
-  base::Overrides overrides;
-  for (const std::string& assignment : assignments) {
-    const size_t equals = assignment.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      return base::InvalidArgument("BAD_USAGE", "set",
-                                   fmt::format("--set has '{}', expected KEY=VALUE", assignment));
-    }
-    overrides[assignment.substr(0, equals)] = assignment.substr(equals + 1);
-  }
-  return overrides;
-}
-
-// "kick", or "kick-2" for the second source of that name.
-std::string UniqueName(const std::string& stem, const std::vector<Source>& others) {
-  const auto taken = [&](const std::string& name) {
-    return std::any_of(others.begin(), others.end(),
-                       [&](const Source& other) { return other.name == name; });
-  };
-  std::string name = stem;
-  for (int number = 2; taken(name); ++number) name = fmt::format("{}-{}", stem, number);
-  return name;
-}
-
 StatusOr<Work> ReadSources(const AugmentOptions& options) {
   Work work{.spec = options.spec, .sources = {}, .report_sources = {}};
-  POISE_ASSIGN_OR_RETURN(work.spec.overrides, ParseAssignments(options.assignments));
+  POISE_ASSIGN_OR_RETURN(work.spec.overrides, ParsePairs(options.assignments, "set"));
+  std::set<std::string> names;
   for (const std::string& file : options.files) {
     POISE_ASSIGN_OR_RETURN(LoadedClip loaded, LoadClip(file, options.reader));
-    const std::string name = UniqueName(fs::path(file).stem().string(), work.sources);
+    const std::string name = base::UniqueName(fs::path(file).stem().string(), names);
     auto plausibility = motion::AssessPlausibility(loaded.file.clip, loaded.roles);
     work.report_sources.push_back(
         {name, plausibility.ok() ? std::optional(*plausibility) : std::nullopt});

@@ -19,6 +19,8 @@ Command AddFkCommand(CLI::App& app, const Console& console);
 Command AddAugmentCommand(CLI::App& app, const Console& console);
 /// What comes next in a motion (predict_command.cc).
 Command AddPredictCommand(CLI::App& app, const Console& console);
+/// Variants that a simulated body has imitated (correct_command.cc).
+Command AddCorrectCommand(CLI::App& app, const Console& console);
 /// Whether a server takes calls (health_command.cc).
 Command AddHealthCommand(CLI::App& app, const Console& console);
 /// Long work on a server (jobs_command.cc, jobs/).

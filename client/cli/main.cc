@@ -13,16 +13,17 @@ namespace {
 constexpr char kDescription[] =
     "Human motion in, more and better human motion out.\n\n"
     "Reads BVH, ASF/AMC, AMASS-style npz, CMU exponential-map text and DeepMimic JSON. info, "
-    "convert and fk work on files alone; augment, predict, jobs, admin and health ask a Poise "
-    "server "
+    "convert and fk work on files alone; augment, correct, predict, jobs, admin and health ask a "
+    "Poise server "
     "(POISE_SERVER, default 127.0.0.1:50051).";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise info kick.bvh\n"
     "  poise convert kick.amc kick.bvh\n"
     "  poise augment kick.bvh --method ik+timewarp --class kick -n 20 --out kicks\n"
+    "  poise correct kick.bvh --method ik -n 20 --effort fast --out corrected\n"
     "  poise predict walk.bvh --horizon 0.4 --out next.bvh\n"
-    "  poise jobs create selftest --wait\n\n"
+    "  poise jobs list --watch\n\n"
     "`poise COMMAND --help` explains a command. Every command takes --json.\n"
     "Exit codes: 0 ok, 1 internal, 2 usage or bad input, 3 not found, 4 precondition not met,\n"
     "5 no server, 6 cancelled or out of time, 7 a limit was reached, 8 the job failed.";
@@ -44,7 +45,8 @@ Status Main(const Console& console, int argc, char** argv) {
   app.set_version_flag("--version", std::string("poise ") + base::Version());
   std::vector<Command> commands = {AddInfoCommand(app, console),    AddConvertCommand(app, console),
                                    AddFkCommand(app, console),      AddAugmentCommand(app, console),
-                                   AddPredictCommand(app, console), AddHealthCommand(app, console)};
+                                   AddCorrectCommand(app, console), AddPredictCommand(app, console),
+                                   AddHealthCommand(app, console)};
   for (Command& command : AddJobsCommands(app, console)) commands.push_back(std::move(command));
   for (Command& command : AddAdminCommands(app, console)) commands.push_back(std::move(command));
   POISE_ASSIGN_OR_RETURN(const bool run, ParseCommandLine(app, argc, argv));

@@ -137,7 +137,7 @@ Command AddJobsCreateCommand(CLI::App& jobs, const Console& console) {
   auto options = std::make_shared<CreateOptions>();
   CLI::App* command = jobs.add_subcommand("create", kDescription);
   command->footer(kFooter);
-  command->add_option("KIND", options->request.spec.kind, "What to do: selftest")
+  command->add_option("KIND", options->request.spec.kind, "What to do: selftest or correct")
       ->type_name("")
       ->required();
   AddRequestFlags(*command, *options);

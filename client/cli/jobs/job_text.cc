@@ -58,6 +58,9 @@ std::string ProgressText(const base::Progress& progress) {
     return found == progress.metrics.end() ? std::optional<double>() : found->second;
   };
   if (const auto reward = metric("reward")) text += fmt::format("  reward {:.3g}", *reward);
+  // A reward says nothing without what held the body up.
+  if (const auto force = metric("force")) text += fmt::format(", force {:.3f} BW", *force);
+  if (const auto torque = metric("torque")) text += fmt::format(", torque {:.1f} N m", *torque);
   if (const auto left = metric("eta_s"); left && *left >= 0 && *left < 1e8) {
     const int64_t seconds = static_cast<int64_t>(*left + 0.5);
     text += fmt::format("  {}:{:02} left", seconds / 60, seconds % 60);

@@ -21,7 +21,7 @@ TEST(UsageTest, TheVersionIsThatOfTheBuild) {
 
 TEST(UsageTest, EveryCommandExplainsItselfWithExamples) {
   EXPECT_EQ(RunPoise({"--help"}).exit_code, 0);
-  for (const char* command : {"info", "convert", "fk", "augment", "health"}) {
+  for (const char* command : {"info", "convert", "fk", "augment", "correct", "health"}) {
     const PoiseRun run = RunPoise({command, "--help"});
     EXPECT_EQ(run.exit_code, 0) << command;
     EXPECT_THAT(run.out, HasSubstr(std::string("  poise ") + command)) << command;

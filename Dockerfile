@@ -40,9 +40,9 @@ ENTRYPOINT ["/usr/local/bin/poise"]
 FROM ${BASE} AS poise
 RUN apt-get update -q \
     && DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends \
-       ca-certificates libabsl20220623 libfmt9 libgrpc++1.51 libopenblas0-pthread \
-       libcpp-httplib0.11 libprometheus-cpp-core1.0 libprotobuf32 libspdlog1.10 libsqlite3-0 libtorch1.13 \
-       libzip4 \
+       ca-certificates libabsl20220623 libbullet3.24 libcpp-httplib0.11 libfmt9 libgrpc++1.51 \
+       libopenblas0-pthread libprometheus-cpp-core1.0 libprotobuf32 libspdlog1.10 libsqlite3-0 \
+       libtorch1.13 libzip4 \
     && rm -rf /var/lib/apt/lists/* /var/cache/apt/* /var/log/* \
     && install -d -o 65532 -g 65532 /var/lib/poise
 COPY --from=build /image /

@@ -1,9 +1,11 @@
 #ifndef POISE_BENCH_BENCHMARK_H_
 #define POISE_BENCH_BENCHMARK_H_
 
-#include <functional>
 #include <string>
 #include <vector>
+
+#include "bench/measure_rate.h"
+#include "core/base/isa.h"
 
 namespace poise::bench {
 
@@ -15,6 +17,7 @@ struct Row {
   std::string peer;  ///< what the value is held against: a stated limit or another implementation
   double ratio = 0;  ///< value / peer's value; above 1 is better than the peer
   int threads = 1;
+  std::string isa = base::IsaName(base::BestIsa());
 };
 
 /// A group of benchmarks: chosen by name with --filter.
@@ -31,12 +34,8 @@ std::vector<Row> RunCorrectionBenchmark();
 std::vector<Row> RunGrpcBenchmark();
 std::vector<Row> RunIkBenchmark();
 std::vector<Row> RunJobsBenchmark();
+std::vector<Row> RunPolicyBenchmark();
 std::vector<Row> RunSimBenchmark();
-
-/// How often `work` runs in one second of this thread's own computing time, which other processes
-/// do not take away: the best of several rounds that last `round_seconds` each, after one to warm
-/// up. `work` must not hand its work to other threads.
-double MeasureRate(const std::function<void()>& work, double round_seconds = 0.5);
 
 }  // namespace poise::bench
 

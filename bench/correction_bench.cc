@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -55,12 +54,6 @@ struct Sum {
     }
   }
 };
-
-double ThreadSeconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 // HDM_bd_kick...: the two letters after the first underscore.
 bool IsOf(const Actors& actors, const std::filesystem::path& file) {

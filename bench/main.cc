@@ -5,7 +5,6 @@
 
 #include "CLI/CLI.hpp"
 #include "bench/benchmark.h"
-#include "core/base/isa.h"
 #include "core/base/json.h"
 #include "core/base/memory_policy.h"
 
@@ -13,13 +12,8 @@ namespace poise::bench {
 namespace {
 
 base::Json ToJson(const Row& row) {
-  return {{"name", row.name},
-          {"value", row.value},
-          {"unit", row.unit},
-          {"peer", row.peer},
-          {"ratio", row.ratio},
-          {"threads", row.threads},
-          {"isa", base::IsaName(base::BestIsa())}};
+  return {{"name", row.name},   {"value", row.value},     {"unit", row.unit}, {"peer", row.peer},
+          {"ratio", row.ratio}, {"threads", row.threads}, {"isa", row.isa}};
 }
 
 int Main(int argc, char** argv) {

@@ -14,7 +14,9 @@
 #include "client/stored_artifact.h"
 #include "client/variant_stream.h"
 #include "core/api/augment_spec.h"
+#include "core/api/data_set.h"
 #include "core/api/job.h"
+#include "core/api/model_card.h"
 #include "core/api/predict_query.h"
 #include "core/base/status.h"
 
@@ -95,6 +97,24 @@ class Client {
   std::unique_ptr<JobWatch> WatchJob(const std::string& id, const WatchOptions& options = {});
   /// All that can be done with one job.
   JobHandle Handle(const std::string& id);
+
+  /// Trained networks, as NAME or NAME@VERSION; ModelService in model_service.proto says what the
+  /// server does, and its errors.
+  StatusOr<std::vector<api::Model>> ListModels();
+  StatusOr<api::Model> GetModel(const std::string& model);
+  /// `artifact` is an uploaded model file, or one that a training job made.
+  StatusOr<api::Model> ImportModel(const std::string& name, const std::string& artifact);
+  /// The artifact to download.
+  StatusOr<StoredArtifact> ExportModel(const std::string& model);
+  StatusOr<api::Model> SetDefaultModel(const std::string& model);
+  Status DeleteModel(const std::string& model);
+
+  /// Training data; DataService in data_service.proto. `artifact` is an uploaded set of clips
+  /// (motion/dataset/clip_set_file.h).
+  StatusOr<api::DataSet> CreateDataSet(const std::string& name, const std::string& artifact);
+  StatusOr<api::DataSet> GetDataSet(const std::string& name);
+  StatusOr<std::vector<api::DataSet>> ListDataSets();
+  Status DeleteDataSet(const std::string& name);
 
   /// For operators. `path` lies below the server's data folder and must not exist.
   StatusOr<std::vector<Finding>> Doctor();

@@ -15,6 +15,8 @@ Connection::Connection(ClientOptions options)
       augmentation_(v1::AugmentationService::NewStub(channel_)),
       prediction_(v1::PredictionService::NewStub(channel_)),
       artifact_(v1::ArtifactService::NewStub(channel_)),
+      model_(v1::ModelService::NewStub(channel_)),
+      data_(v1::DataService::NewStub(channel_)),
       job_(v1::JobService::NewStub(channel_)),
       worker_(v1::WorkerService::NewStub(channel_)),
       admin_(v1::AdminService::NewStub(channel_)),

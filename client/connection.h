@@ -10,7 +10,9 @@
 #include "poise/v1/admin_service.grpc.pb.h"
 #include "poise/v1/artifact_service.grpc.pb.h"
 #include "poise/v1/augmentation_service.grpc.pb.h"
+#include "poise/v1/data_service.grpc.pb.h"
 #include "poise/v1/job_service.grpc.pb.h"
+#include "poise/v1/model_service.grpc.pb.h"
 #include "poise/v1/prediction_service.grpc.pb.h"
 #include "poise/v1/worker_service.grpc.pb.h"
 
@@ -38,6 +40,8 @@ class Connection {
   v1::AugmentationService::Stub& augmentation() const { return *augmentation_; }
   v1::PredictionService::Stub& prediction() const { return *prediction_; }
   v1::ArtifactService::Stub& artifact() const { return *artifact_; }
+  v1::ModelService::Stub& model() const { return *model_; }
+  v1::DataService::Stub& data() const { return *data_; }
   v1::JobService::Stub& job() const { return *job_; }
   v1::WorkerService::Stub& worker() const { return *worker_; }
   v1::AdminService::Stub& admin() const { return *admin_; }
@@ -49,6 +53,8 @@ class Connection {
   std::unique_ptr<v1::AugmentationService::Stub> augmentation_;
   std::unique_ptr<v1::PredictionService::Stub> prediction_;
   std::unique_ptr<v1::ArtifactService::Stub> artifact_;
+  std::unique_ptr<v1::ModelService::Stub> model_;
+  std::unique_ptr<v1::DataService::Stub> data_;
   std::unique_ptr<v1::JobService::Stub> job_;
   std::unique_ptr<v1::WorkerService::Stub> worker_;
   std::unique_ptr<v1::AdminService::Stub> admin_;

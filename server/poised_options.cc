@@ -12,8 +12,11 @@ namespace {
 void AddServerFlags(PoisedOptions& options, CLI::App& app) {
   app.add_option("--listen", options.server.listen, "ADDR:PORT to serve on; port 0: any free one")
       ->capture_default_str();
-  app.add_option("--data-dir", options.engine.data_dir, "Folder for artifacts and jobs")
+  app.add_option("--data-dir", options.engine.data_dir,
+                 "Folder for artifacts, jobs, models and data sets")
       ->capture_default_str();
+  app.add_option("--shipped-models", options.engine.shipped_models,
+                 "Folder of models that came with the program; they are read only");
   app.add_option("--compute-threads", options.engine.compute_threads,
                  "Threads that make variants; 0: one per CPU")
       ->check(CLI::Range(0, 1024))

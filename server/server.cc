@@ -68,6 +68,8 @@ Server::Server(const ServerConfig& config, engine::Engine& engine, base::Telemet
       augmentation_(engine, admission_, config.methods.augment, telemetry),
       prediction_(engine, admission_, config.methods),
       artifacts_(engine.artifacts(), admission_, config.methods),
+      models_(engine.models(), admission_, config.methods),
+      data_(engine.data_sets(), admission_, config.methods),
       jobs_(engine.jobs(), engine.artifacts(), store_calls_, admission_, config.methods, drain_,
             config.snapshot_interval),
       operations_(engine.jobs(), store_calls_, admission_, config.methods, drain_),
@@ -88,6 +90,8 @@ Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
   builder.RegisterService(&augmentation_);
   builder.RegisterService(&prediction_);
   builder.RegisterService(&artifacts_);
+  builder.RegisterService(&models_);
+  builder.RegisterService(&data_);
   builder.RegisterService(&jobs_);
   builder.RegisterService(&operations_);
   builder.RegisterService(&workers_);
@@ -108,7 +112,8 @@ Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
   address_ = fmt::format("{}:{}", config.listen.substr(0, config.listen.rfind(':')), port);
   for (const char* service :
        {v1::AugmentationService::service_full_name(), v1::PredictionService::service_full_name(),
-        v1::ArtifactService::service_full_name(), v1::JobService::service_full_name(),
+        v1::ArtifactService::service_full_name(), v1::ModelService::service_full_name(),
+        v1::DataService::service_full_name(), v1::JobService::service_full_name(),
         v1::WorkerService::service_full_name(), v1::AdminService::service_full_name(),
         google::longrunning::Operations::service_full_name()}) {
     server_->GetHealthCheckService()->SetServingStatus(service, true);

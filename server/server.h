@@ -14,8 +14,10 @@
 #include "server/handlers/admin_handler.h"
 #include "server/handlers/artifact_handler.h"
 #include "server/handlers/augmentation_handler.h"
+#include "server/handlers/data_handler.h"
 #include "server/handlers/drain_state.h"
 #include "server/handlers/job_handler.h"
+#include "server/handlers/model_handler.h"
 #include "server/handlers/operations_handler.h"
 #include "server/handlers/prediction_handler.h"
 #include "server/handlers/unknown_method_handler.h"
@@ -65,6 +67,8 @@ class Server {
   AugmentationHandler augmentation_;
   PredictionHandler prediction_;
   ArtifactHandler artifacts_;
+  ModelHandler models_;
+  DataHandler data_;
   JobHandler jobs_;
   OperationsHandler operations_;
   WorkerHandler workers_;

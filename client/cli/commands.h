@@ -25,6 +25,10 @@ Command AddCorrectCommand(CLI::App& app, const Console& console);
 Command AddHealthCommand(CLI::App& app, const Console& console);
 /// Long work on a server (jobs_command.cc, jobs/).
 std::vector<Command> AddJobsCommands(CLI::App& app, const Console& console);
+/// Trained networks on a server (models_command.cc).
+std::vector<Command> AddModelsCommands(CLI::App& app, const Console& console);
+/// Training data on a server (data_command.cc).
+std::vector<Command> AddDataCommands(CLI::App& app, const Console& console);
 /// For operators (admin_command.cc).
 std::vector<Command> AddAdminCommands(CLI::App& app, const Console& console);
 

@@ -13,7 +13,8 @@ namespace {
 constexpr char kDescription[] =
     "Human motion in, more and better human motion out.\n\n"
     "Reads BVH, ASF/AMC, AMASS-style npz, CMU exponential-map text and DeepMimic JSON. info, "
-    "convert and fk work on files alone; augment, correct, predict, jobs, admin and health ask a "
+    "convert and fk work on files alone; augment, correct, predict, jobs, models, data, admin and "
+    "health ask a "
     "Poise server "
     "(POISE_SERVER, default 127.0.0.1:50051).";
 constexpr char kFooter[] =
@@ -48,6 +49,8 @@ Status Main(const Console& console, int argc, char** argv) {
                                    AddCorrectCommand(app, console), AddPredictCommand(app, console),
                                    AddHealthCommand(app, console)};
   for (Command& command : AddJobsCommands(app, console)) commands.push_back(std::move(command));
+  for (Command& command : AddModelsCommands(app, console)) commands.push_back(std::move(command));
+  for (Command& command : AddDataCommands(app, console)) commands.push_back(std::move(command));
   for (Command& command : AddAdminCommands(app, console)) commands.push_back(std::move(command));
   POISE_ASSIGN_OR_RETURN(const bool run, ParseCommandLine(app, argc, argv));
   if (!run) return absl::OkStatus();

@@ -9,33 +9,38 @@
 #include "core/runtime/jobs/sqlite_job_store.h"
 
 namespace poise::engine {
-namespace {
-
-EngineConfig WithDataDir(EngineConfig config) {
-  config.jobs.data_dir = config.data_dir;
-  return config;
-}
-
-}  // namespace
-
 StatusOr<std::unique_ptr<Engine>> Engine::Create(const EngineConfig& config,
                                                  base::Telemetry& telemetry) {
   POISE_RETURN_IF_ERROR(config.jobs.Validate());
+  Stores stores;
   // First: who has the jobs has the folder, and a second process must not touch the artifacts.
-  POISE_ASSIGN_OR_RETURN(std::unique_ptr<jobs::JobStore> store,
-                         jobs::OpenSqliteJobStore(
-                             {.path = config.data_dir / "jobs.db", .policy = config.jobs.policy}));
-  POISE_ASSIGN_OR_RETURN(std::unique_ptr<artifacts::ArtifactStore> artifacts,
+  POISE_ASSIGN_OR_RETURN(stores.jobs, jobs::OpenSqliteJobStore({.path = config.data_dir / "jobs.db",
+                                                                .policy = config.jobs.policy}));
+  POISE_ASSIGN_OR_RETURN(stores.artifacts,
                          artifacts::ArtifactStore::Create({.root = config.data_dir / "artifacts"}));
-  return std::unique_ptr<Engine>(
-      new Engine(config, std::move(artifacts), std::move(store), telemetry));
+  POISE_ASSIGN_OR_RETURN(
+      stores.models, artifacts::ModelRegistry::Open(
+                         {.root = config.data_dir / "models", .shipped = config.shipped_models}));
+  POISE_ASSIGN_OR_RETURN(stores.data_sets, artifacts::DataSetRegistry::Open(
+                                               config.data_dir / "data_sets", *stores.artifacts));
+  return std::unique_ptr<Engine>(new Engine(config, std::move(stores), telemetry));
 }
 
-Engine::Engine(EngineConfig config, std::unique_ptr<artifacts::ArtifactStore> artifacts,
-               std::unique_ptr<jobs::JobStore> store, base::Telemetry& telemetry)
-    : config_(WithDataDir(std::move(config))),
-      artifacts_(std::move(artifacts)),
-      jobs_(std::make_unique<JobManager>(config_.jobs, std::move(store), *artifacts_, telemetry)),
+JobManagerConfig Engine::JobsConfig() const {
+  JobManagerConfig config = config_.jobs;
+  config.data_dir = config_.data_dir;
+  config.other_artifacts = [this] { return data_sets_->Artifacts(); };
+  return config;
+}
+
+Engine::Engine(EngineConfig config, Stores stores, base::Telemetry& telemetry)
+    : config_(std::move(config)),
+      artifacts_(std::move(stores.artifacts)),
+      model_registry_(std::move(stores.models)),
+      models_(*model_registry_, *artifacts_),
+      data_sets_(std::move(stores.data_sets)),
+      jobs_(std::make_unique<JobManager>(JobsConfig(), std::move(stores.jobs), *artifacts_,
+                                         telemetry)),
       forecaster_(std::make_unique<Forecaster>(*artifacts_)),
       sources_resolved_(telemetry.counter("poise_augment_sources_total",
                                           "Source clips decoded for augmentation", {})),

@@ -6,6 +6,8 @@
 
 #include "core/api/augment_spec.h"
 #include "core/artifacts/artifact_store.h"
+#include "core/artifacts/data_set_registry.h"
+#include "core/artifacts/model_registry.h"
 #include "core/base/run_context.h"
 #include "core/base/status.h"
 #include "core/base/telemetry.h"
@@ -13,12 +15,15 @@
 #include "core/engine/augment_run.h"
 #include "core/engine/forecaster.h"
 #include "core/engine/job_manager.h"
+#include "core/engine/model_catalog.h"
 
 namespace poise::engine {
 
 struct EngineConfig {
-  std::filesystem::path data_dir;  ///< artifacts and jobs live below it; made when absent
-  int compute_threads = 0;         ///< <= 0: one per available CPU
+  /// Artifacts, jobs, models and data sets live below it; made when absent.
+  std::filesystem::path data_dir;
+  std::filesystem::path shipped_models;  ///< models that came with the program; may be absent
+  int compute_threads = 0;               ///< <= 0: one per available CPU
   /// [frames, > 0] Frames that one request may ask for: variants times the frames of their sources.
   int64_t max_output_frames = 2'000'000'000;
   JobManagerConfig jobs = JobManagerConfig();
@@ -43,14 +48,28 @@ class Engine {
   Forecaster& forecaster() { return *forecaster_; }
   artifacts::ArtifactStore& artifacts() { return *artifacts_; }
   JobManager& jobs() { return *jobs_; }
+  ModelCatalog& models() { return models_; }
+  artifacts::DataSetRegistry& data_sets() { return *data_sets_; }
   base::ThreadPool& compute() { return *compute_; }
 
  private:
-  Engine(EngineConfig config, std::unique_ptr<artifacts::ArtifactStore> artifacts,
-         std::unique_ptr<jobs::JobStore> store, base::Telemetry& telemetry);
+  // What is kept below the data folder.
+  struct Stores {
+    std::unique_ptr<jobs::JobStore> jobs;
+    std::unique_ptr<artifacts::ArtifactStore> artifacts;
+    std::unique_ptr<artifacts::ModelRegistry> models;
+    std::unique_ptr<artifacts::DataSetRegistry> data_sets;
+  };
+
+  Engine(EngineConfig config, Stores stores, base::Telemetry& telemetry);
+
+  JobManagerConfig JobsConfig() const;
 
   EngineConfig config_;
   std::unique_ptr<artifacts::ArtifactStore> artifacts_;
+  std::unique_ptr<artifacts::ModelRegistry> model_registry_;
+  ModelCatalog models_;
+  std::unique_ptr<artifacts::DataSetRegistry> data_sets_;
   std::unique_ptr<JobManager> jobs_;
   std::unique_ptr<Forecaster> forecaster_;
   base::Counter& sources_resolved_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "absl/time/clock.h"
@@ -272,7 +273,11 @@ Status JobManager::CollectArtifacts() {
   // Before the look at the jobs: what is named after it was refreshed after this, too.
   const absl::Time limit = absl::Now() - config_.artifact_retention;
   POISE_ASSIGN_OR_RETURN(const std::vector<std::string> names, store_->ReferencedArtifacts());
-  artifacts_.Collect({names.begin(), names.end()}, limit);
+  std::set<std::string> keep(names.begin(), names.end());
+  if (config_.other_artifacts) {
+    for (std::string& name : config_.other_artifacts()) keep.insert(std::move(name));
+  }
+  artifacts_.Collect(keep, limit);
   artifacts_.CollectUploads(absl::Now());
   return absl::OkStatus();
 }

@@ -2,6 +2,7 @@
 #define POISE_CORE_ENGINE_JOB_MANAGER_H_
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +31,8 @@ struct JobManagerConfig {
   /// An artifact that no job names stays this long after it was last stored or named: an upload is
   /// there before the job that needs it.
   absl::Duration artifact_retention = absl::Hours(24);
+  /// Artifacts that are kept for another reason than a job; Engine fills it in.
+  std::function<std::vector<std::string>()> other_artifacts = {};
   JobLog* log = &JobLog::None();  ///< outlives the manager
 
   /// Errors: kInvalidArgument BAD_JOB_POLICY with the field.

@@ -35,6 +35,9 @@ struct MethodPolicies {
   MethodPolicy job_result{.default_deadline = absl::Minutes(10), .max_deadline = absl::Hours(1)};
   MethodPolicy wait_operation{
       .default_deadline = absl::Minutes(5), .max_deadline = absl::Hours(1), .place = Place::kWatch};
+  /// All of ModelService and DataService: they read and write whole files.
+  MethodPolicy model{.default_deadline = absl::Minutes(2), .max_deadline = absl::Minutes(10)};
+  MethodPolicy data{.default_deadline = absl::Minutes(10), .max_deadline = absl::Hours(1)};
   /// All of WorkerService: no flood of other calls may keep a worker from its lease.
   MethodPolicy worker{.default_deadline = absl::Minutes(1),
                       .max_deadline = absl::Minutes(5),
@@ -46,7 +49,8 @@ struct MethodPolicies {
     return std::max({augment.max_deadline, predict.max_deadline, predict_stream.max_deadline,
                      upload.max_deadline, download.max_deadline, job.max_deadline,
                      watch.max_deadline, job_result.max_deadline, wait_operation.max_deadline,
-                     worker.max_deadline, admin.max_deadline});
+                     model.max_deadline, data.max_deadline, worker.max_deadline,
+                     admin.max_deadline});
   }
 };
 

@@ -5,17 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/motion/clip.h"
+#include "core/motion/dataset/labelled_clip.h"
 #include "core/motion/metrics/euler_error.h"
 
 namespace poise::motion {
-
-/// A sequence with what it shows.
-struct LabelledClip {
-  std::string action;
-  std::string actor;  ///< empty where the data do not say
-  Clip clip;
-};
 
 /// The sequences of a published prediction benchmark, thinned out as published.
 struct BenchmarkClips {

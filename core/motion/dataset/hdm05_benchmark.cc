@@ -16,12 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr int kKeptFrame = 4;  // of 120 Hz
 
-// HDM_<actor>_<class>_<take>_120.amc
-std::string ActorOf(const fs::path& path) {
-  const std::string stem = path.stem().string();
-  const size_t from = stem.find('_') + 1;
-  return stem.substr(from, stem.find('_', from) - from);
-}
+std::string ActorOf(const fs::path& path) { return LabelsOf(path.stem().string()).actor; }
 
 StatusOr<std::vector<fs::path>> ClassFiles(const fs::path& folder, const std::string& name) {
   if (!fs::is_directory(folder / name)) {

@@ -1,0 +1,99 @@
+// `poise data` and `poise models` against a real poised.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/artifacts/model_artifact.h"
+#include "core/motion/io/clip_file.h"
+#include "tests/client/cli/poise_program.h"
+#include "tests/support/data_files.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_clips.h"
+
+namespace poise::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class ModelsCommandTest : public ::testing::Test {
+ protected:
+  ModelsCommandTest()
+      : server_({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--workers", "0",
+                 "--lame-duck-seconds", "0", "--data-dir", (folder_.path() / "data").string()}) {
+    EXPECT_TRUE(server_.WaitForOutput("\n", absl::Seconds(60))) << server_.ErrorOutput();
+    const std::string ready = server_.Output();
+    address_ = base::Json::parse(ready.substr(0, ready.find('\n'))).at("address");
+  }
+  ~ModelsCommandTest() override {
+    server_.Signal(SIGTERM);
+    EXPECT_EQ(server_.Wait(), 0);
+  }
+
+  PoiseRun Poise(std::vector<std::string> arguments) {
+    arguments.push_back("--json");
+    return RunPoise(std::move(arguments), {{"POISE_SERVER", address_}});
+  }
+  std::string Path(const std::string& below) const { return folder_.path() / below; }
+
+  TemporaryFolder folder_;
+  Process server_;
+  std::string address_;
+};
+
+TEST_F(ModelsCommandTest, AFolderOfClipsBecomesADataSet) {
+  fs::create_directories(Path("clips/wave"));
+  ASSERT_TRUE(motion::WriteBvhFile(Path("clips/wave/a.bvh"), SwingingClip(31, 30)).ok());
+  const PoiseRun added = Poise({"data", "add", "waves", Path("clips"), "--license", "mine"});
+  ASSERT_EQ(added.exit_code, 0) << added.out << added.err;
+  const base::Json set = added.JsonLines().back();
+  EXPECT_EQ(set["clips"], 1);
+  EXPECT_EQ(set["actions"]["wave"], 1);
+  EXPECT_EQ(set["license"], "mine");
+  EXPECT_EQ(Poise({"data", "get", "waves"}).JsonLines().back(), set);
+  EXPECT_EQ(Poise({"data", "list"}).JsonLines().size(), 1u);
+  EXPECT_EQ(Poise({"data", "delete", "waves"}).exit_code, 0);
+  EXPECT_EQ(Poise({"data", "get", "waves"}).exit_code, 3);
+  std::ofstream(Path("clips/wave/b.bvh")) << "nonsense";
+  const PoiseRun broken = Poise({"data", "add", "waves", Path("clips")});
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_THAT(std::string(broken.Error()["message"]), HasSubstr("wave/b.bvh"));
+}
+
+TEST_F(ModelsCommandTest, Hdm05IsAddedWhole) {
+  POISE_REQUIRE_DATA("hdm05");
+  const PoiseRun added =
+      Poise({"data", "add", "hdm05", DataPath("hdm05").string(), "--license", "CC BY-SA 3.0"});
+  ASSERT_EQ(added.exit_code, 0) << added.out << added.err;
+  const base::Json set = added.JsonLines().back();
+  EXPECT_EQ(set["clips"], 226);
+  EXPECT_EQ(set["frames"], 58517);
+  EXPECT_EQ(set["actors"].size(), 5u);
+  EXPECT_EQ(set["actions"]["kickLFront1Reps"], 28);
+}
+
+TEST_F(ModelsCommandTest, AModelIsImportedExportedAndDeleted) {
+  artifacts::ModelArtifact model;
+  model.card.family = "vae";
+  model.card.signature.roles = motion::RequiredRoles();
+  model.weights.tensors["w"] = base::TensorRecord::FromFloats({1}, std::vector<float>{1});
+  std::ofstream(Path("kick.safetensors"), std::ios::binary) << artifacts::PackModel(model);
+  const PoiseRun imported = Poise({"models", "import", "kick", Path("kick.safetensors")});
+  ASSERT_EQ(imported.exit_code, 0) << imported.out << imported.err;
+  EXPECT_EQ(imported.JsonLines().back()["version"], "1");
+  const PoiseRun exported = Poise({"models", "export", "kick@1", "--out", Path("again")});
+  ASSERT_EQ(exported.exit_code, 0) << exported.out;
+  std::ifstream again(Path("again"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(again), {}};
+  EXPECT_EQ(bytes, artifacts::PackModel(model));
+  EXPECT_EQ(Poise({"models", "list"}).JsonLines().back()["card"]["family"], "vae");
+  EXPECT_EQ(Poise({"models", "default", "kick@1"}).exit_code, 0);
+  EXPECT_EQ(Poise({"models", "delete", "kick@1"}).exit_code, 0);
+  EXPECT_EQ(Poise({"models", "get", "kick"}).exit_code, 3);
+}
+
+}  // namespace
+}  // namespace poise::testing

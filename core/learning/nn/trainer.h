@@ -13,10 +13,10 @@
 #include <string_view>
 #include <vector>
 
-#include "absl/time/time.h"
 #include "core/base/random.h"
 #include "core/base/run_context.h"
 #include "core/base/status.h"
+#include "core/learning/nn/checkpoint_sink.h"
 #include "core/learning/nn/learning_curve.h"
 #include "core/learning/nn/trainer_config.h"
 
@@ -54,12 +54,6 @@ struct TrainingSetup {
   /// no early stopping, and the last weights are the result.
   std::function<StatusOr<double>()> validate = {};
   uint64_t seed = 0;
-};
-
-/// Where checkpoints go. `save` must keep the bytes or copy them.
-struct CheckpointSink {
-  absl::Duration interval = absl::InfiniteDuration();
-  std::function<Status(std::string_view bytes, int64_t step)> save;
 };
 
 struct TrainingReport {

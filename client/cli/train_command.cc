@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "client/cli/commands.h"
+#include "client/cli/jobs/job_options.h"
+#include "client/cli/jobs/job_wait.h"
+#include "client/client.h"
+
+namespace poise::cli {
+namespace {
+
+constexpr char kDescription[] =
+    "Train a network on a server.\n\n"
+    "The training is a job: it survives whatever is killed and goes on from its last checkpoint. "
+    "The command waits for it and then gives the model its name; with --detach it prints the job, "
+    "whose model.safetensors can be imported later (poise models import NAME artifacts/SHA256).";
+constexpr char kVaeDescription[] =
+    "Train MotionAug's variational autoencoder on the clips of one class.\n\n"
+    "The actor of --hold-out is not learned from; how well his motions are reconstructed stands in "
+    "the model's card. Settings: preset recommended or paper, then --set.";
+constexpr char kVaeFooter[] =
+    "Examples:\n"
+    "  poise train vae --data hdm05 --class kick --hold-out tr --name kick-tr --seed 1\n"
+    "  poise train vae --data hdm05 --class jog --name jog --preset paper --detach\n"
+    "  poise train vae --data hdm05 --class kick --name kick --set trainer.steps=500";
+constexpr const char* kModelFile = "model.safetensors";
+
+struct TrainOptions {
+  client::ClientOptions connection = client::ClientOptions::FromEnvironment();
+  std::string data, name, action_class, hold_out;
+  std::string preset = "recommended";
+  std::vector<std::string> assignments;  // of --set
+  uint64_t seed = 0;
+  std::string request_id;
+  bool detach = false;
+};
+
+StatusOr<api::CreateJob> Request(const TrainOptions& options, const api::DataSet& data) {
+  api::CreateJob request;
+  request.spec.kind = "train_vae";
+  request.request_id = options.request_id;
+  request.seed = options.seed;
+  POISE_ASSIGN_OR_RETURN(const auto settings, ParsePairs(options.assignments, "set"));
+  request.spec.parameters = {{"data_artifact", data.artifact},
+                             {"data", data.name},
+                             {"data_license", data.license},
+                             {"action_class", options.action_class},
+                             {"hold_out", options.hold_out},
+                             {"preset", options.preset},
+                             {"set", settings}};
+  return request;
+}
+
+StatusOr<std::string> ModelArtifact(const api::Job& job) {
+  for (const api::JobArtifact& file : job.artifacts) {
+    if (file.name == kModelFile) return file.artifact;
+  }
+  return base::NotFound("ARTIFACT_NOT_FOUND", "",
+                        fmt::format("jobs/{} has no {}", job.id, kModelFile));
+}
+
+Status RunVae(const TrainOptions& options, const Console& console) {
+  JobWait wait({.wait = !options.detach}, console);
+  POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
+  POISE_ASSIGN_OR_RETURN(const api::DataSet data, client->GetDataSet(options.data));
+  POISE_ASSIGN_OR_RETURN(const api::CreateJob request, Request(options, data));
+  POISE_ASSIGN_OR_RETURN(api::Job job, client->CreateJob(request));
+  if (options.detach) return wait.Answer(*client, std::move(job));
+  POISE_ASSIGN_OR_RETURN(job, wait.End(*client, std::move(job)));
+  if (job.state != api::JobState::kSucceeded) return JobOutcome(job);
+  POISE_ASSIGN_OR_RETURN(const std::string artifact, ModelArtifact(job));
+  POISE_ASSIGN_OR_RETURN(const api::Model model, client->ImportModel(options.name, artifact));
+  if (console.json()) {
+    console.PrintJson({{"model", model.name},
+                       {"version", model.version},
+                       {"job", "jobs/" + job.id},
+                       {"card", api::ToJson(model.card)},
+                       {"scores", model.card.scores}});
+    return absl::OkStatus();
+  }
+  console.Print(fmt::format("{}@{}, {}", model.name, model.version, model.card.trained_on));
+  for (const auto& [name, value] : model.card.scores) {
+    console.Print(fmt::format("  {:<28} {:.4f}", name, value));
+  }
+  return absl::OkStatus();
+}
+
+void AddVaeFlags(CLI::App& command, TrainOptions& options) {
+  command.add_option("--data", options.data, "Data set (poise data list)")
+      ->type_name("NAME")
+      ->required();
+  command.add_option("--name", options.name, "Name of the model; this is its next version")
+      ->type_name("NAME")
+      ->required();
+  command.add_option("--class", options.action_class, "Class of the clips: kick, jog, ...")
+      ->type_name("CLASS");
+  command.add_option("--hold-out", options.hold_out, "Actor who is not learned from")
+      ->type_name("ACTOR");
+  command.add_option("--preset", options.preset, "recommended or paper")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command.add_option("--set", options.assignments, "A setting; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--seed", options.seed, "Seed of all random choices")
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--request-id", options.request_id, "The same id again is the same job")
+      ->type_name("ID");
+  command.add_flag("--detach", options.detach, "Print the job and do not wait");
+}
+
+}  // namespace
+
+Command AddTrainCommand(CLI::App& app, const Console& console) {
+  CLI::App* train = app.add_subcommand("train", kDescription);
+  train->footer("Example:\n  poise train vae --data hdm05 --class kick --name kick");
+  auto options = std::make_shared<TrainOptions>();
+  CLI::App* vae = train->add_subcommand("vae", kVaeDescription);
+  vae->footer(kVaeFooter);
+  AddVaeFlags(*vae, *options);
+  AddConnectionFlags(*vae, options->connection);
+  return {vae, [options, &console] { return RunVae(*options, console); }};
+}
+
+}  // namespace poise::cli

@@ -1,0 +1,17 @@
+#ifndef POISE_CORE_ENGINE_LEARNING_RUNNERS_H_
+#define POISE_CORE_ENGINE_LEARNING_RUNNERS_H_
+
+#include <memory>
+#include <string_view>
+
+#include "core/runtime/jobs/job_runner.h"
+
+namespace poise::engine {
+
+/// The runner of a kind, also of those that need LibTorch (the flow table, which the server reads,
+/// knows these by name only). For the process of a job. Errors: those of FindFlow.
+StatusOr<std::unique_ptr<jobs::JobRunner>> MakeRunner(std::string_view kind);
+
+}  // namespace poise::engine
+
+#endif  // POISE_CORE_ENGINE_LEARNING_RUNNERS_H_

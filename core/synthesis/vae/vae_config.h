@@ -1,0 +1,55 @@
+#ifndef POISE_CORE_SYNTHESIS_VAE_VAE_CONFIG_H_
+#define POISE_CORE_SYNTHESIS_VAE_VAE_CONFIG_H_
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/config_fields.h"
+#include "core/base/status.h"
+#include "core/learning/nn/trainer_config.h"
+
+namespace poise::synthesis {
+
+/// Sizes of the networks; part of what a model is.
+struct VaeNetConfig {
+  int latent = 128;        ///< [> 0] dimensions of z (MotionAug sec. 4.1)
+  int hidden = 256;        ///< [> 0] units of an LSTM, per direction
+  int embedding = 128;     ///< [> 0] of a pose before an LSTM or a frame's verdict
+  int length_hidden = 32;  ///< [> 0] of the length estimator
+
+  std::vector<base::Field> Fields();
+};
+
+/// How the VAE learns. Defaults are the preset `recommended`.
+struct VaeConfig {
+  VaeNetConfig net;
+
+  double frame_rate = 30;  ///< [Hz] of the motions it learns
+  /// Unit of the root position in input and loss: standardised (mean 0, deviation 1 of each axis
+  /// over the training frames) | metres | authors (5 cm, in which it dominates the loss).
+  std::string root_unit = "standardised";
+
+  double smoothness_weight = 0.001;      ///< [>= 0] second differences (reference sec. 2.4)
+  double kl_weight = 0.01;               ///< [>= 0]
+  double length_weight = 0.01;           ///< [>= 0]
+  bool adversarial = true;               ///< with frame and sequence discriminators
+  double frame_adversary_weight = 1;     ///< [>= 0]
+  double sequence_adversary_weight = 1;  ///< [>= 0]
+
+  learning::OptimizerConfig vae_optimizer;
+  learning::OptimizerConfig discriminator_optimizer;
+  learning::TrainerConfig trainer;
+
+  VaeConfig();
+  /// `paper`: SGD at 0.005, halved every 4,000 of 20,000 steps, batches of 128, 5 cm units.
+  /// Errors: kInvalidArgument UNKNOWN_PRESET.
+  static StatusOr<VaeConfig> FromPreset(std::string_view preset);
+
+  std::vector<base::Field> Fields();
+  Status Validate() const;
+};
+
+}  // namespace poise::synthesis
+
+#endif  // POISE_CORE_SYNTHESIS_VAE_VAE_CONFIG_H_

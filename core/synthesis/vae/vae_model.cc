@@ -1,0 +1,134 @@
+#include "core/synthesis/vae/vae_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/learning/nn/guard.h"
+#include "core/learning/nn/module_state.h"
+#include "core/motion/pose_codec.h"
+#include "core/motion/skeleton_json.h"
+#include "core/synthesis/vae/vae_config.h"
+#include "core/synthesis/vae/vae_net.h"
+#include "core/synthesis/vae/vae_tensors_net.h"
+
+namespace poise::synthesis {
+namespace {
+
+constexpr motion::RotationCodec kCodec{.representation = motion::RotationRepresentation::kSixD};
+
+// What the card says beside the config.
+struct Normalisation {
+  RootScale root;
+  int frames = 0;
+  motion::SkeletonPtr skeleton;
+};
+
+StatusOr<Normalisation> ReadNormalisation(const base::Json& json) {
+  const auto malformed = [] {
+    return base::InvalidArgument("MALFORMED_CARD", "normalisation",
+                                 "the card of a VAE needs root, frames and skeleton");
+  };
+  if (!json.contains("root") || !json.contains("frames") || !json.contains("skeleton") ||
+      !json["frames"].is_number_integer()) {
+    return malformed();
+  }
+  Normalisation normalisation;
+  normalisation.frames = json["frames"];
+  if (normalisation.frames < 1) return malformed();
+  POISE_ASSIGN_OR_RETURN(normalisation.root, RootScale::FromJson(json["root"]));
+  POISE_ASSIGN_OR_RETURN(normalisation.skeleton, motion::SkeletonFromJson(json["skeleton"]));
+  return normalisation;
+}
+
+StatusOr<Eigen::MatrixXd> ReadMatrix(const base::TensorFile& file, const std::string& name,
+                                     int columns) {
+  POISE_ASSIGN_OR_RETURN(const base::TensorRecord* record, file.Find(name));
+  const int64_t rows = record->shape.empty() ? 0 : record->shape[0];
+  POISE_ASSIGN_OR_RETURN(const std::vector<float> values,
+                         file.Floats(name, std::vector<int64_t>{rows, columns}));
+  if (rows == 0) {
+    return base::InvalidArgument("WRONG_SHAPE", "", fmt::format("tensor '{}' is empty", name));
+  }
+  using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::MatrixXd(Eigen::Map<const RowMajor>(values.data(), rows, columns).cast<double>());
+}
+
+}  // namespace
+
+class VaeModel::Implementation {
+ public:
+  Implementation(motion::MotionSignature signature, Normalisation normalisation,
+                 std::shared_ptr<VaeNet> net, LatentSampler sampler)
+      : signature_(std::move(signature)),
+        normalisation_(std::move(normalisation)),
+        net_(std::move(net)),
+        sampler_(std::move(sampler)) {}
+
+  const motion::MotionSignature& signature() const { return signature_; }
+  const motion::SkeletonPtr& skeleton() const { return normalisation_.skeleton; }
+
+  StatusOr<motion::Clip> Sample(base::Random& random, const std::string& name) const {
+    const torch::NoGradGuard no_gradient;
+    const Eigen::VectorXf z = sampler_.Draw(random).cast<float>();
+    torch::Tensor latent = torch::empty({1, z.size()});
+    std::copy(z.begin(), z.end(), latent.data_ptr<float>());
+    const torch::Tensor poses = net_->Decode(latent).squeeze(0);
+    const double length = net_->EstimateLength(latent).item<double>();
+    if (!torch::isfinite(poses).all().item<bool>() || !std::isfinite(length)) {
+      return base::MakeError(absl::StatusCode::kOutOfRange, "NOT_FINITE", "",
+                             "the VAE made a number that is none");
+    }
+    const int frames = static_cast<int>(
+        std::clamp<double>(std::round(length), 1, static_cast<double>(normalisation_.frames)));
+    return DecodePoses(UnstackMotion(poses, frames, normalisation_.root), kCodec, name,
+                       normalisation_.skeleton, signature_.frame_rate);
+  }
+
+ private:
+  const motion::MotionSignature signature_;
+  const Normalisation normalisation_;
+  const std::shared_ptr<VaeNet> net_;
+  const LatentSampler sampler_;
+};
+
+VaeModel::VaeModel(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+VaeModel::~VaeModel() = default;
+
+StatusOr<std::shared_ptr<const VaeModel>> VaeModel::Create(const artifacts::ModelArtifact& model,
+                                                           const LatentSamplerConfig& sampler) {
+  if (model.card.family != "vae") {
+    return base::FailedPrecondition(
+        "WRONG_FAMILY", "model",
+        fmt::format("a model of family '{}' makes no motions, expected 'vae'", model.card.family));
+  }
+  VaeConfig config;
+  POISE_RETURN_IF_ERROR(base::FieldsFromJson(model.card.config, config.Fields()));
+  LatentSamplerConfig checked = sampler;
+  POISE_RETURN_IF_ERROR(base::CheckRanges(checked.Fields()));
+  POISE_ASSIGN_OR_RETURN(Normalisation normalisation, ReadNormalisation(model.card.normalisation));
+  POISE_ASSIGN_OR_RETURN(Eigen::MatrixXd means,
+                         ReadMatrix(model.weights, "latents/mean", config.net.latent));
+  POISE_ASSIGN_OR_RETURN(Eigen::MatrixXd log_variances,
+                         ReadMatrix(model.weights, "latents/log_variance", config.net.latent));
+  return learning::Guard("VAE", [&]() -> StatusOr<std::shared_ptr<const VaeModel>> {
+    auto net =
+        std::make_shared<VaeNet>(config.net, normalisation.frames, model.card.signature.width());
+    POISE_RETURN_IF_ERROR(learning::LoadState(model.weights, "net/", *net));
+    net->eval();
+    LatentSampler latents(std::move(means), log_variances.array().exp(), checked, model.card.seed);
+    return std::shared_ptr<const VaeModel>(new VaeModel(std::make_unique<Implementation>(
+        model.card.signature, std::move(normalisation), std::move(net), std::move(latents))));
+  });
+}
+
+const motion::MotionSignature& VaeModel::signature() const { return implementation_->signature(); }
+const motion::SkeletonPtr& VaeModel::skeleton() const { return implementation_->skeleton(); }
+
+StatusOr<motion::Clip> VaeModel::Sample(base::Random& random, const std::string& name) const {
+  return learning::Guard("VAE", [&] { return implementation_->Sample(random, name); });
+}
+
+}  // namespace poise::synthesis

@@ -1,0 +1,106 @@
+#include "core/synthesis/vae/vae_net.h"
+
+#include <tuple>
+
+namespace poise::synthesis {
+namespace {
+
+namespace nn = torch::nn;
+namespace rnn = torch::nn::utils::rnn;
+
+nn::LSTM MakeLstm(int inputs, int hidden, bool bidirectional) {
+  return nn::LSTM(nn::LSTMOptions(inputs, hidden).batch_first(true).bidirectional(bidirectional));
+}
+
+nn::Sequential TwoLayers(int inputs, int hidden, int outputs) {
+  return nn::Sequential(nn::Linear(inputs, hidden), nn::ReLU(), nn::Linear(hidden, outputs));
+}
+
+nn::LayerNorm SlabNorm(int frames, int width) {
+  return nn::LayerNorm(nn::LayerNormOptions({frames, width}));
+}
+
+// The outputs (batch, frames, 2 * hidden) of a bidirectional LSTM that sees valid frames only;
+// zero behind them.
+torch::Tensor RunPacked(nn::LSTM& lstm, const torch::Tensor& inputs, const torch::Tensor& lengths) {
+  const auto packed = rnn::pack_padded_sequence(inputs, lengths, /*batch_first=*/true,
+                                                /*enforce_sorted=*/false);
+  const auto outputs = std::get<0>(lstm->forward_with_packed_input(packed));
+  return std::get<0>(
+      rnn::pad_packed_sequence(outputs, /*batch_first=*/true, /*padding_value=*/0, inputs.size(1)));
+}
+
+}  // namespace
+
+torch::Tensor LatentGaussian::Draw(const torch::Tensor& noise) const {
+  return mean + torch::exp(0.5 * log_variance) * noise;
+}
+
+torch::Tensor ValidFrames(const torch::Tensor& lengths, int64_t frames,
+                          const torch::TensorOptions& options) {
+  return torch::arange(frames).unsqueeze(0).lt(lengths.unsqueeze(1)).to(options);
+}
+
+VaeEncoder::VaeEncoder(const VaeNetConfig& config, int frames, int width)
+    : norm_(register_module("norm", SlabNorm(frames, width))),
+      embed_(register_module("embed", nn::Linear(width, config.embedding))),
+      lstm_(register_module("lstm", MakeLstm(config.embedding, config.hidden, true))),
+      mean_(register_module("mean", TwoLayers(2 * config.hidden, config.hidden, config.latent))),
+      log_variance_(register_module("log_variance",
+                                    TwoLayers(2 * config.hidden, config.hidden, config.latent))) {}
+
+LatentGaussian VaeEncoder::forward(const torch::Tensor& poses, const torch::Tensor& lengths) {
+  const torch::Tensor outputs =
+      RunPacked(lstm_, torch::relu(embed_->forward(norm_->forward(poses))), lengths);
+  const torch::Tensor average = outputs.sum(1) / lengths.unsqueeze(1).to(poses.options());
+  return {mean_->forward(average), log_variance_->forward(average)};
+}
+
+VaeDecoder::VaeDecoder(const VaeNetConfig& config, int frames, int width)
+    : frames_(frames),
+      embed_(register_module("embed", nn::Linear(config.latent, config.embedding))),
+      lstm_(register_module("lstm", MakeLstm(config.embedding, config.hidden, false))),
+      pose_(register_module("pose", TwoLayers(config.hidden, config.embedding, width))) {}
+
+torch::Tensor VaeDecoder::forward(const torch::Tensor& z) {
+  const torch::Tensor input = torch::relu(embed_->forward(z));
+  const torch::Tensor repeated = input.unsqueeze(1).expand({z.size(0), frames_, input.size(1)});
+  return pose_->forward(std::get<0>(lstm_->forward(repeated)));
+}
+
+VaeNet::VaeNet(const VaeNetConfig& config, int frames, int width)
+    : frames_(frames),
+      encoder_(register_module("encoder", std::make_shared<VaeEncoder>(config, frames, width))),
+      decoder_(register_module("decoder", std::make_shared<VaeDecoder>(config, frames, width))),
+      length_(register_module("length", TwoLayers(config.latent, config.length_hidden, 1))) {}
+
+torch::Tensor VaeNet::EstimateLength(const torch::Tensor& z) {
+  return frames_ - length_->forward(z).squeeze(1);
+}
+
+FrameDiscriminator::FrameDiscriminator(const VaeNetConfig& config, int width)
+    : layers_(register_module("layers", TwoLayers(width, config.embedding, 1))) {}
+
+torch::Tensor FrameDiscriminator::forward(const torch::Tensor& poses) {
+  return layers_->forward(poses);
+}
+
+SequenceDiscriminator::SequenceDiscriminator(const VaeNetConfig& config, int frames, int width)
+    : hidden_(config.hidden),
+      norm_(register_module("norm", SlabNorm(frames, width))),
+      embed_(register_module("embed", nn::Linear(width, config.embedding))),
+      lstm_(register_module("lstm", MakeLstm(config.embedding, config.hidden, true))),
+      verdict_(register_module("verdict", TwoLayers(2 * config.hidden, config.embedding, 1))) {}
+
+torch::Tensor SequenceDiscriminator::forward(const torch::Tensor& poses,
+                                             const torch::Tensor& lengths) {
+  const torch::Tensor outputs =
+      RunPacked(lstm_, torch::relu(embed_->forward(norm_->forward(poses))), lengths);
+  // The forward direction has seen all at the last valid frame, the backward one at the first.
+  const torch::Tensor last = (lengths - 1).view({-1, 1, 1}).expand({-1, 1, hidden_});
+  const torch::Tensor forward = outputs.narrow(2, 0, hidden_).gather(1, last).squeeze(1);
+  const torch::Tensor backward = outputs.narrow(2, hidden_, hidden_).select(1, 0);
+  return verdict_->forward(torch::cat({forward, backward}, 1));
+}
+
+}  // namespace poise::synthesis

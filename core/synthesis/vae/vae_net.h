@@ -1,0 +1,105 @@
+#ifndef POISE_CORE_SYNTHESIS_VAE_VAE_NET_H_
+#define POISE_CORE_SYNTHESIS_VAE_VAE_NET_H_
+
+#include <torch/torch.h>
+
+#include "core/synthesis/vae/vae_config.h"
+
+/// The networks of MotionAug's VAE. `frames` is the length T to which all sequences are brought by
+/// repeating their last pose; `lengths` (batch) int64 tells how many are valid. A pose is `width`
+/// numbers: root position, then 6D rotations.
+/// Source: reference sec. 2.3. Where the paper says LSTM cells in all discriminators, the frame
+/// discriminator is without one, as in the authors' program.
+namespace poise::synthesis {
+
+/// What one motion may have been drawn from: a diagonal Gaussian.
+struct LatentGaussian {
+  torch::Tensor mean;          // (batch, latent)
+  torch::Tensor log_variance;  // (batch, latent)
+
+  /// mean + deviation * noise. `noise` as mean.
+  torch::Tensor Draw(const torch::Tensor& noise) const;
+};
+
+/// Motion to Gaussian: a bidirectional LSTM, its outputs averaged over the valid frames.
+class VaeEncoder : public torch::nn::Module {
+ public:
+  VaeEncoder(const VaeNetConfig& config, int frames, int width);
+  /// poses (batch, frames, width)
+  LatentGaussian forward(const torch::Tensor& poses, const torch::Tensor& lengths);
+
+ private:
+  torch::nn::LayerNorm norm_;
+  torch::nn::Linear embed_;
+  torch::nn::LSTM lstm_;
+  torch::nn::Sequential mean_, log_variance_;
+};
+
+/// Latent vector to motion: an LSTM that sees the same vector at every frame.
+class VaeDecoder : public torch::nn::Module {
+ public:
+  VaeDecoder(const VaeNetConfig& config, int frames, int width);
+  /// z (batch, latent) -> poses (batch, frames, width)
+  torch::Tensor forward(const torch::Tensor& z);
+
+ private:
+  const int frames_;
+  torch::nn::Linear embed_;
+  torch::nn::LSTM lstm_;
+  torch::nn::Sequential pose_;
+};
+
+/// Encoder, decoder and the estimator of a motion's length.
+class VaeNet : public torch::nn::Module {
+ public:
+  VaeNet(const VaeNetConfig& config, int frames, int width);
+
+  LatentGaussian Encode(const torch::Tensor& poses, const torch::Tensor& lengths) {
+    return encoder_->forward(poses, lengths);
+  }
+  torch::Tensor Decode(const torch::Tensor& z) { return decoder_->forward(z); }
+  /// z -> frames (batch), not rounded.
+  torch::Tensor EstimateLength(const torch::Tensor& z);
+
+  int frames() const { return frames_; }
+
+ private:
+  const int frames_;
+  std::shared_ptr<VaeEncoder> encoder_;
+  std::shared_ptr<VaeDecoder> decoder_;
+  torch::nn::Sequential length_;
+};
+
+/// Tells poses of real motions from made ones, frame by frame.
+class FrameDiscriminator : public torch::nn::Module {
+ public:
+  FrameDiscriminator(const VaeNetConfig& config, int width);
+  /// poses (batch, frames, width) -> verdicts (batch, frames, 1)
+  torch::Tensor forward(const torch::Tensor& poses);
+
+ private:
+  torch::nn::Sequential layers_;
+};
+
+/// Tells whole motions: a bidirectional LSTM, its two last states side by side.
+class SequenceDiscriminator : public torch::nn::Module {
+ public:
+  SequenceDiscriminator(const VaeNetConfig& config, int frames, int width);
+  /// poses (batch, frames, width) -> verdicts (batch, 1)
+  torch::Tensor forward(const torch::Tensor& poses, const torch::Tensor& lengths);
+
+ private:
+  const int hidden_;
+  torch::nn::LayerNorm norm_;
+  torch::nn::Linear embed_;
+  torch::nn::LSTM lstm_;
+  torch::nn::Sequential verdict_;
+};
+
+/// (batch, frames) of 1 where a frame is valid, in the type of the poses.
+torch::Tensor ValidFrames(const torch::Tensor& lengths, int64_t frames,
+                          const torch::TensorOptions& options);
+
+}  // namespace poise::synthesis
+
+#endif  // POISE_CORE_SYNTHESIS_VAE_VAE_NET_H_

@@ -17,6 +17,7 @@
 #include "core/base/version.h"
 #include "core/engine/compute_check.h"
 #include "core/engine/engine.h"
+#include "core/pipeline/load_decoder.h"
 #include "server/job_log_lines.h"
 #include "server/local_workers.h"
 #include "server/log.h"
@@ -118,6 +119,7 @@ Status Serve(PoisedOptions options) {
   PrometheusTelemetry telemetry;
   JobLogLines job_log;
   options.engine.jobs.log = &job_log;
+  options.engine.load_decoder = pipeline::LoadDecoder;
   POISE_ASSIGN_OR_RETURN(const std::unique_ptr<engine::Engine> engine,
                          TakeOver(options, telemetry));
   if (engine == nullptr) return absl::OkStatus();

@@ -27,14 +27,16 @@ constexpr char kDescription[] =
     "A method is a chain of steps joined by '+': ik moves the hand or foot that acts to new "
     "targets "
     "around where it went, timewarp changes the speed, noise shakes the joints, mirror swaps the "
-    "sides. The same seed gives the same files. The table at the end compares how plausible the "
+    "sides, vae makes new motions of the class that a model learned. The same seed gives the same "
+    "files. The table at the end compares how plausible the "
     "variants look with their source.";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise augment kick.bvh -n 20 --seed 1 --out kicks\n"
     "  poise augment punch.amc --method ik --class punch --preset paper --out punches\n"
     "  poise augment *.bvh --method mirror+noise -n 5 --json > variants.jsonl\n"
-    "  poise augment kick.bvh --set ik.radius_high=1.1\n\n"
+    "  poise augment kick.bvh --set ik.radius_high=1.1\n"
+    "  poise augment kick.bvh --method vae+timewarp --model kick -n 100 --out kicks\n\n"
     "A key that --set does not know is answered with the nearest one.\n"
     "No server yet?  poised --listen 127.0.0.1:50051 --data-dir ~/.poise";
 
@@ -177,6 +179,8 @@ void AddSpecFlags(CLI::App& command, AugmentOptions& options) {
                   "sneak, grab, deposit or throw")
       ->type_name("NAME")
       ->capture_default_str();
+  command.add_option("--model", options.spec.model, "The network of step vae (poise models list)")
+      ->type_name("NAME");
   command.add_option("--preset", options.spec.preset, "recommended or paper (as MotionAug did)")
       ->type_name("NAME")
       ->capture_default_str();

@@ -14,9 +14,7 @@ constexpr char kDescription[] =
     "Human motion in, more and better human motion out.\n\n"
     "Reads BVH, ASF/AMC, AMASS-style npz, CMU exponential-map text and DeepMimic JSON. info, "
     "convert and fk work on files alone; augment, correct, predict, jobs, models, data, admin and "
-    "health ask a "
-    "Poise server "
-    "(POISE_SERVER, default 127.0.0.1:50051).";
+    "health ask a Poise server (POISE_SERVER, default 127.0.0.1:50051).";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise info kick.bvh\n"

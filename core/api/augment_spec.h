@@ -26,10 +26,12 @@ struct AugmentSpec {
   static constexpr int kMaxVariants = 1'000'000;
 
   std::vector<ClipSource> sources;
-  /// Steps joined by '+', applied left to right: "ik", "timewarp", "noise", "mirror".
+  /// Steps joined by '+', applied left to right: "ik", "timewarp", "noise", "mirror", "vae".
   std::string method = "ik+timewarp";
   /// Preset of the IK target region: kick, punch, walk, jog, sneak, grab, deposit or throw.
   std::string action_class = "kick";
+  /// The network of step "vae", as NAME or NAME@VERSION.
+  std::string model = {};
   /// "recommended" or "paper".
   std::string preset = "recommended";
   int variants_per_source = 10;

@@ -9,6 +9,7 @@
 #include "core/runtime/jobs/sqlite_job_store.h"
 
 namespace poise::engine {
+
 StatusOr<std::unique_ptr<Engine>> Engine::Create(const EngineConfig& config,
                                                  base::Telemetry& telemetry) {
   POISE_RETURN_IF_ERROR(config.jobs.Validate());
@@ -38,6 +39,7 @@ Engine::Engine(EngineConfig config, Stores stores, base::Telemetry& telemetry)
       artifacts_(std::move(stores.artifacts)),
       model_registry_(std::move(stores.models)),
       models_(*model_registry_, *artifacts_),
+      decoders_(models_, config_.load_decoder),
       data_sets_(std::move(stores.data_sets)),
       jobs_(std::make_unique<JobManager>(JobsConfig(), std::move(stores.jobs), *artifacts_,
                                          telemetry)),
@@ -49,6 +51,10 @@ Engine::Engine(EngineConfig config, Stores stores, base::Telemetry& telemetry)
 StatusOr<std::unique_ptr<AugmentRun>> Engine::PrepareAugment(api::AugmentSpec spec,
                                                              const base::RunContext& context) {
   POISE_RETURN_IF_ERROR(spec.Validate());
+  pipeline::MotionDecoderPtr decoder;
+  if (!spec.model.empty()) {
+    POISE_ASSIGN_OR_RETURN(decoder, decoders_.Get(spec.model));
+  }
   const ClipCatalog catalog(*artifacts_);
   std::vector<pipeline::ResolvedSource> sources;
   std::vector<motion::SourceConvention> conventions;
@@ -70,8 +76,9 @@ StatusOr<std::unique_ptr<AugmentRun>> Engine::PrepareAugment(api::AugmentSpec sp
     sources.push_back(std::move(clip->source));
     sources_resolved_.Increment();
   }
-  POISE_ASSIGN_OR_RETURN(std::unique_ptr<pipeline::AugmentFlow> flow,
-                         pipeline::AugmentFlow::Create(spec, std::move(sources)));
+  POISE_ASSIGN_OR_RETURN(
+      std::unique_ptr<pipeline::AugmentFlow> flow,
+      pipeline::AugmentFlow::Create(spec, std::move(sources), std::move(decoder)));
   return std::make_unique<AugmentRun>(std::move(flow), spec.output, std::move(conventions),
                                       *artifacts_);
 }

@@ -13,6 +13,7 @@
 #include "core/base/telemetry.h"
 #include "core/base/thread_pool.h"
 #include "core/engine/augment_run.h"
+#include "core/engine/decoder_cache.h"
 #include "core/engine/forecaster.h"
 #include "core/engine/job_manager.h"
 #include "core/engine/model_catalog.h"
@@ -22,8 +23,9 @@ namespace poise::engine {
 struct EngineConfig {
   /// Artifacts, jobs, models and data sets live below it; made when absent.
   std::filesystem::path data_dir;
-  std::filesystem::path shipped_models;  ///< models that came with the program; may be absent
-  int compute_threads = 0;               ///< <= 0: one per available CPU
+  std::filesystem::path shipped_models = {};  ///< models that came with the program; may be absent
+  DecoderLoader load_decoder = {};            ///< empty: no method "vae" (pipeline/load_decoder.h)
+  int compute_threads = 0;                    ///< <= 0: one per available CPU
   /// [frames, > 0] Frames that one request may ask for: variants times the frames of their sources.
   int64_t max_output_frames = 2'000'000'000;
   JobManagerConfig jobs = JobManagerConfig();
@@ -40,8 +42,8 @@ class Engine {
 
   /// Resolves the sources (decodes files, reads artifacts) and prepares their variants. The caller
   /// runs AugmentRun::Make on compute(), while this engine lives.
-  /// Errors: those of ClipCatalog::Resolve and AugmentFlow::Create with the field "sources[i]";
-  /// kInvalidArgument REQUEST_TOO_LARGE; kCancelled, kDeadlineExceeded.
+  /// Errors: those of DecoderCache::Get; of ClipCatalog::Resolve and AugmentFlow::Create with the
+  /// field "sources[i]"; kInvalidArgument REQUEST_TOO_LARGE; kCancelled, kDeadlineExceeded.
   StatusOr<std::unique_ptr<AugmentRun>> PrepareAugment(api::AugmentSpec spec,
                                                        const base::RunContext& context);
 
@@ -69,6 +71,7 @@ class Engine {
   std::unique_ptr<artifacts::ArtifactStore> artifacts_;
   std::unique_ptr<artifacts::ModelRegistry> model_registry_;
   ModelCatalog models_;
+  DecoderCache decoders_;
   std::unique_ptr<artifacts::DataSetRegistry> data_sets_;
   std::unique_ptr<JobManager> jobs_;
   std::unique_ptr<Forecaster> forecaster_;

@@ -144,12 +144,14 @@ AugmentFlow::AugmentFlow(std::unique_ptr<Implementation> implementation)
 AugmentFlow::~AugmentFlow() = default;
 
 StatusOr<std::unique_ptr<AugmentFlow>> AugmentFlow::Create(const api::AugmentSpec& spec,
-                                                           std::vector<ResolvedSource> sources) {
+                                                           std::vector<ResolvedSource> sources,
+                                                           MotionDecoderPtr decoder) {
   POISE_RETURN_IF_ERROR(spec.Validate());
   POISE_ASSIGN_OR_RETURN(auto steps,
                          synthesis::CreateMethod(spec.method, {.action_class = spec.action_class,
                                                                .preset = spec.preset,
-                                                               .overrides = spec.overrides}));
+                                                               .overrides = spec.overrides,
+                                                               .decoder = std::move(decoder)}));
   auto implementation =
       std::make_unique<Implementation>(spec, std::move(steps), std::move(sources));
   POISE_RETURN_IF_ERROR(implementation->CheckSources());

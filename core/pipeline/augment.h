@@ -9,8 +9,12 @@
 #include "core/base/status.h"
 #include "core/motion/clip.h"
 #include "core/motion/joint_roles.h"
+#include "core/synthesis/motion_decoder.h"
 
 namespace poise::pipeline {
+
+/// The network that step "vae" uses.
+using MotionDecoderPtr = std::shared_ptr<const synthesis::MotionDecoder>;
 
 /// A source whose bytes have become a clip.
 struct ResolvedSource {
@@ -24,11 +28,13 @@ struct ResolvedSource {
 /// (DeriveSeed(seed, {source, index})), so threads and order do not change it.
 class AugmentFlow {
  public:
-  /// Errors: those of AugmentSpec::Validate; kInvalidArgument UNKNOWN_METHOD, UNKNOWN_ACTION_CLASS,
+  /// Errors: those of AugmentSpec::Validate; kInvalidArgument UNKNOWN_METHOD, MISSING_MODEL,
+  /// UNKNOWN_ACTION_CLASS,
   /// UNKNOWN_CONFIG_KEY and the other config errors; what the methods need of the clips
   /// (MISSING_ROLES, CLIP_TOO_SHORT), with the field "sources[i]".
   static StatusOr<std::unique_ptr<AugmentFlow>> Create(const api::AugmentSpec& spec,
-                                                       std::vector<ResolvedSource> sources);
+                                                       std::vector<ResolvedSource> sources,
+                                                       MotionDecoderPtr decoder = nullptr);
   ~AugmentFlow();
 
   int64_t num_variants() const;

@@ -15,8 +15,8 @@ struct TrainVaeSpec {
   std::string data_artifact;  ///< "artifacts/<sha256>": the clips of the data set
   std::string data;           ///< its name, for the card
   std::string data_license;
-  std::string action_class;   ///< "kick"; empty: all clips
-  std::string hold_out;       ///< actor who is not learned from; empty: nobody
+  std::string action_class;  ///< "kick"; empty: all clips
+  std::string hold_out;      ///< actor who is not learned from; empty: nobody
   std::string preset = "recommended";
   base::Overrides overrides;  ///< "set": settings of VaeConfig by name
 

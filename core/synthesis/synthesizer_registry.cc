@@ -9,6 +9,7 @@
 #include "core/synthesis/mirror/mirror_synthesizer.h"
 #include "core/synthesis/noise/noise_synthesizer.h"
 #include "core/synthesis/timewarp/timewarp_synthesizer.h"
+#include "core/synthesis/vae/vae_synthesizer.h"
 
 namespace poise::synthesis {
 namespace {
@@ -45,16 +46,25 @@ StatusOr<SynthesizerPtr> CreateMirror(const SynthesisOptions& options) {
   return SynthesizerPtr(std::make_unique<MirrorSynthesizer>());
 }
 
+StatusOr<SynthesizerPtr> CreateVae(const SynthesisOptions& options) {
+  LatentSamplerConfig config;
+  POISE_RETURN_IF_ERROR(
+      base::ApplyOverrides(options.overrides, base::Nested("vae", config.Fields())));
+  if (options.decoder == nullptr) {
+    return base::InvalidArgument("MISSING_MODEL", "model",
+                                 "method 'vae' needs a model: say which (NAME or NAME@VERSION)");
+  }
+  return SynthesizerPtr(std::make_unique<VaeSynthesizer>(options.decoder, config));
+}
+
 struct Entry {
   const char* name;
   StatusOr<SynthesizerPtr> (*create)(const SynthesisOptions& options);
 };
 
 constexpr Entry kSteps[] = {
-    {"ik", CreateIk},
-    {"timewarp", CreateTimewarp},
-    {"noise", CreateNoise},
-    {"mirror", CreateMirror},
+    {"ik", CreateIk},         {"timewarp", CreateTimewarp}, {"noise", CreateNoise},
+    {"mirror", CreateMirror}, {"vae", CreateVae},
 };
 
 std::vector<std::string> SplitMethod(std::string_view method) {

@@ -8,6 +8,7 @@
 
 #include "core/base/config_fields.h"
 #include "core/base/status.h"
+#include "core/synthesis/motion_decoder.h"
 #include "core/synthesis/synthesizer.h"
 
 namespace poise::synthesis {
@@ -18,6 +19,7 @@ struct SynthesisOptions {
   std::string preset = "recommended";
   base::Overrides overrides =
       {};  ///< {"ik.angle": "0.5"}: each key begins with the step it belongs to
+  std::shared_ptr<const MotionDecoder> decoder = nullptr;  ///< what step "vae" needs
 };
 
 /// One step of a method, ready to bind.
@@ -33,8 +35,8 @@ std::vector<std::string> MethodStepNames();
 
 /// Builds the steps of a method: names joined by '+' ("ik+timewarp"), applied left to right.
 /// Errors: kInvalidArgument UNKNOWN_METHOD (naming the known steps and the nearest),
-/// TOO_MANY_STEPS, UNKNOWN_ACTION_CLASS, UNKNOWN_PRESET, UNKNOWN_CONFIG_KEY and the other config
-/// errors.
+/// TOO_MANY_STEPS, MISSING_MODEL (step "vae" without a decoder), UNKNOWN_ACTION_CLASS,
+/// UNKNOWN_PRESET, UNKNOWN_CONFIG_KEY and the other config errors.
 StatusOr<std::vector<MethodStep>> CreateMethod(std::string_view method,
                                                const SynthesisOptions& options);
 

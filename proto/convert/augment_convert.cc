@@ -17,6 +17,7 @@ StatusOr<api::AugmentSpec> FromScalars(const v1::AugmentRequest& request) {
   if (!request.method().empty()) spec.method = request.method();
   if (!request.action_class().empty()) spec.action_class = request.action_class();
   if (!request.preset().empty()) spec.preset = request.preset();
+  spec.model = request.model();
   if (request.variants_per_source() != 0) spec.variants_per_source = request.variants_per_source();
   spec.seed = request.seed();
   spec.overrides.insert(request.overrides().begin(), request.overrides().end());
@@ -51,6 +52,7 @@ v1::AugmentRequest ToProto(const api::AugmentSpec& spec) {
   message.set_method(ValidUtf8(spec.method));
   message.set_action_class(ValidUtf8(spec.action_class));
   message.set_preset(ValidUtf8(spec.preset));
+  message.set_model(ValidUtf8(spec.model));
   message.set_variants_per_source(spec.variants_per_source);
   message.set_seed(spec.seed);
   for (const auto& [key, value] : spec.overrides) {

@@ -6,10 +6,12 @@ namespace poise::synthesis {
 namespace {
 
 constexpr int kMaxUnits = 8192;
+constexpr int kMaxFrequencies = 16;
 constexpr double kMaxWeight = 1e6;
 
 VaeConfig Paper() {
   VaeConfig config;
+  config.net.clock = 0;
   config.root_unit = "authors";
   config.vae_optimizer = {.type = "sgd",
                           .learning_rate = 0.005,
@@ -27,7 +29,8 @@ std::vector<base::Field> VaeNetConfig::Fields() {
   return {base::Number("latent", &latent, 1, kMaxUnits),
           base::Number("hidden", &hidden, 1, kMaxUnits),
           base::Number("embedding", &embedding, 1, kMaxUnits),
-          base::Number("length_hidden", &length_hidden, 1, kMaxUnits)};
+          base::Number("length_hidden", &length_hidden, 1, kMaxUnits),
+          base::Number("clock", &clock, 0, kMaxFrequencies)};
 }
 
 VaeConfig::VaeConfig()

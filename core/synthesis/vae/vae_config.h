@@ -17,6 +17,9 @@ struct VaeNetConfig {
   int hidden = 256;        ///< [> 0] units of an LSTM, per direction
   int embedding = 128;     ///< [> 0] of a pose before an LSTM or a frame's verdict
   int length_hidden = 32;  ///< [> 0] of the length estimator
+  /// [>= 0] Frequencies of a clock that the decoder's LSTM sees beside z: sine and cosine of 1, 2,
+  /// 4, ... half turns over the frames. 0: none, as in the paper, where the LSTM has to count.
+  int clock = 4;
 
   std::vector<base::Field> Fields();
 };

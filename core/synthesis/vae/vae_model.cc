@@ -59,46 +59,34 @@ StatusOr<Eigen::MatrixXd> ReadMatrix(const base::TensorFile& file, const std::st
 
 class VaeModel::Implementation {
  public:
-  Implementation(motion::MotionSignature signature, Normalisation normalisation,
-                 std::shared_ptr<VaeNet> net, LatentSampler sampler)
-      : signature_(std::move(signature)),
-        normalisation_(std::move(normalisation)),
-        net_(std::move(net)),
-        sampler_(std::move(sampler)) {}
+  motion::MotionSignature signature;
+  Normalisation normalisation;
+  std::shared_ptr<VaeNet> net;
+  Eigen::MatrixXd means, variances;  // (motions, latent) of the training clips
+  uint64_t seed = 0;
 
-  const motion::MotionSignature& signature() const { return signature_; }
-  const motion::SkeletonPtr& skeleton() const { return normalisation_.skeleton; }
-
-  StatusOr<motion::Clip> Sample(base::Random& random, const std::string& name) const {
+  StatusOr<motion::Clip> Decode(const Eigen::VectorXd& latent, const std::string& name) const {
     const torch::NoGradGuard no_gradient;
-    const Eigen::VectorXf z = sampler_.Draw(random).cast<float>();
-    torch::Tensor latent = torch::empty({1, z.size()});
-    std::copy(z.begin(), z.end(), latent.data_ptr<float>());
-    const torch::Tensor poses = net_->Decode(latent).squeeze(0);
-    const double length = net_->EstimateLength(latent).item<double>();
+    torch::Tensor z = torch::empty({1, latent.size()});
+    std::copy(latent.begin(), latent.end(), z.data_ptr<float>());
+    const torch::Tensor poses = net->Decode(z).squeeze(0);
+    const double length = net->EstimateLength(z).item<double>();
     if (!torch::isfinite(poses).all().item<bool>() || !std::isfinite(length)) {
       return base::MakeError(absl::StatusCode::kOutOfRange, "NOT_FINITE", "",
                              "the VAE made a number that is none");
     }
     const int frames = static_cast<int>(
-        std::clamp<double>(std::round(length), 1, static_cast<double>(normalisation_.frames)));
-    return DecodePoses(UnstackMotion(poses, frames, normalisation_.root), kCodec, name,
-                       normalisation_.skeleton, signature_.frame_rate);
+        std::clamp<double>(std::round(length), 1, static_cast<double>(normalisation.frames)));
+    return DecodePoses(UnstackMotion(poses, frames, normalisation.root), kCodec, name,
+                       normalisation.skeleton, signature.frame_rate);
   }
-
- private:
-  const motion::MotionSignature signature_;
-  const Normalisation normalisation_;
-  const std::shared_ptr<VaeNet> net_;
-  const LatentSampler sampler_;
 };
 
 VaeModel::VaeModel(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 VaeModel::~VaeModel() = default;
 
-StatusOr<std::shared_ptr<const VaeModel>> VaeModel::Create(const artifacts::ModelArtifact& model,
-                                                           const LatentSamplerConfig& sampler) {
+StatusOr<std::shared_ptr<const VaeModel>> VaeModel::Create(const artifacts::ModelArtifact& model) {
   if (model.card.family != "vae") {
     return base::FailedPrecondition(
         "WRONG_FAMILY", "model",
@@ -106,29 +94,37 @@ StatusOr<std::shared_ptr<const VaeModel>> VaeModel::Create(const artifacts::Mode
   }
   VaeConfig config;
   POISE_RETURN_IF_ERROR(base::FieldsFromJson(model.card.config, config.Fields()));
-  LatentSamplerConfig checked = sampler;
-  POISE_RETURN_IF_ERROR(base::CheckRanges(checked.Fields()));
-  POISE_ASSIGN_OR_RETURN(Normalisation normalisation, ReadNormalisation(model.card.normalisation));
-  POISE_ASSIGN_OR_RETURN(Eigen::MatrixXd means,
+  auto parts = std::make_unique<Implementation>();
+  parts->signature = model.card.signature;
+  parts->seed = model.card.seed;
+  POISE_ASSIGN_OR_RETURN(parts->normalisation, ReadNormalisation(model.card.normalisation));
+  POISE_ASSIGN_OR_RETURN(parts->means,
                          ReadMatrix(model.weights, "latents/mean", config.net.latent));
-  POISE_ASSIGN_OR_RETURN(Eigen::MatrixXd log_variances,
+  POISE_ASSIGN_OR_RETURN(const Eigen::MatrixXd log_variances,
                          ReadMatrix(model.weights, "latents/log_variance", config.net.latent));
-  return learning::Guard("VAE", [&]() -> StatusOr<std::shared_ptr<const VaeModel>> {
-    auto net =
-        std::make_shared<VaeNet>(config.net, normalisation.frames, model.card.signature.width());
-    POISE_RETURN_IF_ERROR(learning::LoadState(model.weights, "net/", *net));
-    net->eval();
-    LatentSampler latents(std::move(means), log_variances.array().exp(), checked, model.card.seed);
-    return std::shared_ptr<const VaeModel>(new VaeModel(std::make_unique<Implementation>(
-        model.card.signature, std::move(normalisation), std::move(net), std::move(latents))));
-  });
+  parts->variances = log_variances.array().exp();
+  POISE_RETURN_IF_ERROR(learning::Guard("VAE", [&]() -> Status {
+    parts->net =
+        std::make_shared<VaeNet>(config.net, parts->normalisation.frames, parts->signature.width());
+    parts->net->eval();
+    return learning::LoadState(model.weights, "net/", *parts->net);
+  }));
+  return std::shared_ptr<const VaeModel>(new VaeModel(std::move(parts)));
 }
 
-const motion::MotionSignature& VaeModel::signature() const { return implementation_->signature(); }
-const motion::SkeletonPtr& VaeModel::skeleton() const { return implementation_->skeleton(); }
+const motion::MotionSignature& VaeModel::signature() const { return implementation_->signature; }
+const motion::SkeletonPtr& VaeModel::skeleton() const {
+  return implementation_->normalisation.skeleton;
+}
 
-StatusOr<motion::Clip> VaeModel::Sample(base::Random& random, const std::string& name) const {
-  return learning::Guard("VAE", [&] { return implementation_->Sample(random, name); });
+LatentSampler VaeModel::MakeSampler(const LatentSamplerConfig& config) const {
+  return LatentSampler(implementation_->means, implementation_->variances, config,
+                       implementation_->seed);
+}
+
+StatusOr<motion::Clip> VaeModel::Decode(const Eigen::VectorXd& latent,
+                                        const std::string& name) const {
+  return learning::Guard("VAE", [&] { return implementation_->Decode(latent, name); });
 }
 
 }  // namespace poise::synthesis

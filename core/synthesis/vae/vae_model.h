@@ -5,30 +5,26 @@
 #include <string>
 
 #include "core/artifacts/model_artifact.h"
-#include "core/base/random.h"
 #include "core/base/status.h"
 #include "core/motion/clip.h"
-#include "core/synthesis/vae/latent_sampler.h"
+#include "core/synthesis/motion_decoder.h"
 
 namespace poise::synthesis {
 
-/// A trained VAE that makes motions.
-/// Constant after construction. Threads: any, each with its own Random.
-class VaeModel {
+/// A trained VAE that makes motions, on the 16 joints of the body whose clip was learned first.
+class VaeModel : public MotionDecoder {
  public:
   /// Rebuilds the network from the card. Errors: kFailedPrecondition WRONG_FAMILY; kInvalidArgument
   /// MALFORMED_CARD, MISSING_TENSOR, WRONG_SHAPE; config errors.
-  static StatusOr<std::shared_ptr<const VaeModel>> Create(const artifacts::ModelArtifact& model,
-                                                          const LatentSamplerConfig& sampler = {});
-  ~VaeModel();
+  static StatusOr<std::shared_ptr<const VaeModel>> Create(const artifacts::ModelArtifact& model);
+  ~VaeModel() override;
 
-  const motion::MotionSignature& signature() const;
-  /// The 16 joints of the body whose clip was learned first, with their own names.
-  const motion::SkeletonPtr& skeleton() const;
-
-  /// One new motion, as long as the network estimates. Same state of `random`, same motion.
-  /// Errors: kInternal NETWORK_FAILED; kOutOfRange NOT_FINITE.
-  StatusOr<motion::Clip> Sample(base::Random& random, const std::string& name) const;
+  const motion::MotionSignature& signature() const override;
+  const motion::SkeletonPtr& skeleton() const override;
+  LatentSampler MakeSampler(const LatentSamplerConfig& config) const override;
+  /// As long as the network estimates.
+  StatusOr<motion::Clip> Decode(const Eigen::VectorXd& latent,
+                                const std::string& name) const override;
 
  private:
   class Implementation;

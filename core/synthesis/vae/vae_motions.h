@@ -39,8 +39,8 @@ StatusOr<PreparedMotion> PrepareMotion(const motion::Clip& clip, double frame_ra
 
 /// Who is learned from and who is not.
 struct FoldChoice {
-  std::string action_class;  ///< of IsOfClass; empty: all
-  std::string held_out;      ///< actor; empty: nobody
+  std::string action_class = {};  ///< of IsOfClass; empty: all
+  std::string held_out = {};      ///< actor; empty: nobody
 };
 
 struct Fold {

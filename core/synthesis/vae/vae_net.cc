@@ -1,5 +1,6 @@
 #include "core/synthesis/vae/vae_net.h"
 
+#include <numbers>
 #include <tuple>
 
 namespace poise::synthesis {
@@ -30,6 +31,14 @@ torch::Tensor RunPacked(nn::LSTM& lstm, const torch::Tensor& inputs, const torch
       rnn::pad_packed_sequence(outputs, /*batch_first=*/true, /*padding_value=*/0, inputs.size(1)));
 }
 
+// (frames, 2 * frequencies): sine and cosine of 1, 2, 4, ... half turns over the frames.
+torch::Tensor Clock(int64_t frames, int64_t frequencies, const torch::TensorOptions& options) {
+  const torch::Tensor turns = torch::pow(2, torch::arange(frequencies, options));
+  const torch::Tensor angles = std::numbers::pi / static_cast<double>(frames) *
+                               torch::arange(frames, options).unsqueeze(1) * turns.unsqueeze(0);
+  return torch::cat({angles.sin(), angles.cos()}, 1);
+}
+
 }  // namespace
 
 torch::Tensor LatentGaussian::Draw(const torch::Tensor& noise) const {
@@ -58,14 +67,20 @@ LatentGaussian VaeEncoder::forward(const torch::Tensor& poses, const torch::Tens
 
 VaeDecoder::VaeDecoder(const VaeNetConfig& config, int frames, int width)
     : frames_(frames),
+      frequencies_(config.clock),
       embed_(register_module("embed", nn::Linear(config.latent, config.embedding))),
-      lstm_(register_module("lstm", MakeLstm(config.embedding, config.hidden, false))),
+      lstm_(register_module("lstm",
+                            MakeLstm(config.embedding + 2 * config.clock, config.hidden, false))),
       pose_(register_module("pose", TwoLayers(config.hidden, config.embedding, width))) {}
 
 torch::Tensor VaeDecoder::forward(const torch::Tensor& z) {
   const torch::Tensor input = torch::relu(embed_->forward(z));
-  const torch::Tensor repeated = input.unsqueeze(1).expand({z.size(0), frames_, input.size(1)});
-  return pose_->forward(std::get<0>(lstm_->forward(repeated)));
+  torch::Tensor inputs = input.unsqueeze(1).expand({z.size(0), frames_, input.size(1)});
+  if (frequencies_ > 0) {
+    const torch::Tensor clock = Clock(frames_, frequencies_, z.options());
+    inputs = torch::cat({inputs, clock.unsqueeze(0).expand({z.size(0), frames_, -1})}, 2);
+  }
+  return pose_->forward(std::get<0>(lstm_->forward(inputs)));
 }
 
 VaeNet::VaeNet(const VaeNetConfig& config, int frames, int width)

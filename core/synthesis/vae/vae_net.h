@@ -35,7 +35,7 @@ class VaeEncoder : public torch::nn::Module {
   torch::nn::Sequential mean_, log_variance_;
 };
 
-/// Latent vector to motion: an LSTM that sees the same vector at every frame.
+/// Latent vector to motion: an LSTM that sees the same vector, and the clock, at every frame.
 class VaeDecoder : public torch::nn::Module {
  public:
   VaeDecoder(const VaeNetConfig& config, int frames, int width);
@@ -44,6 +44,7 @@ class VaeDecoder : public torch::nn::Module {
 
  private:
   const int frames_;
+  const int frequencies_;
   torch::nn::Linear embed_;
   torch::nn::LSTM lstm_;
   torch::nn::Sequential pose_;

@@ -159,7 +159,8 @@ TEST(VaeLossTest, GradientsAreThoseOfFiniteDifferences) {
 
 TEST(VaeLossTest, GradientsThroughTheNetworksAreThoseOfFiniteDifferences) {
   torch::manual_seed(4);
-  const VaeNetConfig small{.latent = 3, .hidden = 4, .embedding = 5, .length_hidden = 3};
+  const VaeNetConfig small{
+      .latent = 3, .hidden = 4, .embedding = 5, .length_hidden = 3, .clock = 2};
   VaeNet net(small, kFrames, kWidth);
   FrameDiscriminator frame(small, kWidth);
   SequenceDiscriminator sequence(small, kFrames, kWidth);
@@ -187,7 +188,8 @@ TEST(VaeLossTest, GradientsThroughTheNetworksAreThoseOfFiniteDifferences) {
 
 TEST(VaeNetTest, WhatStandsBehindTheEndOfAMotionDoesNotChangeItsCode) {
   torch::manual_seed(4);
-  const VaeNetConfig small{.latent = 3, .hidden = 4, .embedding = 5, .length_hidden = 3};
+  const VaeNetConfig small{
+      .latent = 3, .hidden = 4, .embedding = 5, .length_hidden = 3, .clock = 2};
   VaeEncoder encoder(small, kFrames, kWidth);
   SequenceDiscriminator sequence(small, kFrames, kWidth);
   encoder.to(torch::kFloat64);

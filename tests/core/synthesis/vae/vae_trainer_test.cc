@@ -7,6 +7,7 @@
 
 #include "core/motion/dataset/clip_folder.h"
 #include "core/synthesis/vae/vae_model.h"
+#include "core/synthesis/vae/vae_synthesizer.h"
 #include "tests/support/data_files.h"
 #include "tests/support/test_clips.h"
 
@@ -16,7 +17,7 @@ namespace {
 // Small enough to learn in a second.
 VaeConfig SmallConfig(int64_t steps) {
   VaeConfig config;
-  config.net = {.latent = 4, .hidden = 32, .embedding = 32, .length_hidden = 8};
+  config.net = {.latent = 4, .hidden = 32, .embedding = 32, .length_hidden = 8, .clock = 2};
   config.trainer.steps = steps;
   config.trainer.batch_size = 4;
   return config;
@@ -52,8 +53,11 @@ TEST(VaeTrainerTest, OneKickIsReconstructedBelow005Rad) {
   ASSERT_TRUE(kicks.ok()) << kicks.status();
   VaeTask task;
   task.clips = {kicks->clips.front()};
-  task.config.trainer.steps = 400;
-  task.config.trainer.batch_size = 4;
+  task.config.net.hidden = 128;
+  task.config.vae_optimizer.learning_rate = 3e-3;
+  task.config.trainer.steps = 500;
+  task.config.trainer.batch_size = 1;
+  task.config.kl_weight = 0;
   task.config.adversarial = false;
   const auto result = TrainVae(task, WithSeed(1));
   ASSERT_TRUE(result.ok()) << result.status();
@@ -112,14 +116,16 @@ TEST(VaeModelTest, SamplesAreClipsOfTheModelsBodyThatDependOnTheSeedAlone) {
   ASSERT_TRUE(result.ok()) << result.status();
   const auto model = VaeModel::Create(result->model);
   ASSERT_TRUE(model.ok()) << model.status();
+  const LatentSampler sampler = (*model)->MakeSampler({});
   base::Random a(7), b(7), c(8);
-  const auto first = (*model)->Sample(a, "sample");
+  const auto first = (*model)->Decode(sampler.Draw(a), "sample");
   ASSERT_TRUE(first.ok()) << first.status();
   EXPECT_EQ(first->frame_rate(), 30);
   EXPECT_EQ(first->num_joints(), 16);
   EXPECT_GT(first->num_frames(), 5);
   EXPECT_LE(first->num_frames(), 24);
-  const auto same = (*model)->Sample(b, "sample"), other = (*model)->Sample(c, "sample");
+  const auto same = (*model)->Decode(sampler.Draw(b), "sample");
+  const auto other = (*model)->Decode(sampler.Draw(c), "sample");
   ASSERT_TRUE(same.ok() && other.ok());
   EXPECT_EQ(first->root_position(0), same->root_position(0));
   EXPECT_NE(first->root_position(0), other->root_position(0));
@@ -140,6 +146,28 @@ TEST(VaeModelTest, ModelsOfAnotherFamilyOrWithOtherWeightsAreRefused) {
   model = result->model;
   model.card.normalisation.erase("frames");
   EXPECT_EQ(base::ErrorReason(VaeModel::Create(model).status()), "MALFORMED_CARD");
+}
+
+TEST(VaeSynthesizerTest, VariantsAreDoneByTheSourcesBodyAtItsRate) {
+  const auto result = TrainVae(SmallTask(200), WithSeed(1));
+  ASSERT_TRUE(result.ok()) << result.status();
+  const auto model = VaeModel::Create(result->model);
+  ASSERT_TRUE(model.ok()) << model.status();
+  const motion::Clip source = testing::SwingingClip(40, 120, 0.2, 9);
+  const auto roles = motion::JointRoles::Detect(*source.skeleton());
+  ASSERT_TRUE(roles.ok());
+  const VaeSynthesizer synthesizer(*model, {});
+  const Draft draft{.clip = source, .ik = {}};
+  const auto bound = synthesizer.Bind(draft, *roles);
+  ASSERT_TRUE(bound.ok()) << bound.status();
+  base::Random random(3);
+  const auto variant = (*bound)->Sample(random, {});
+  ASSERT_TRUE(variant.ok()) << variant.status();
+  EXPECT_TRUE(variant->clip.skeleton()->SameAs(*source.skeleton()));
+  EXPECT_EQ(variant->clip.frame_rate(), 120);
+  // It learned clips of 0.5 to 0.7 s.
+  EXPECT_GT(variant->clip.duration(), 0.3);
+  EXPECT_LT(variant->clip.duration(), 0.9);
 }
 
 }  // namespace

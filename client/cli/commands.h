@@ -29,6 +29,8 @@ std::vector<Command> AddJobsCommands(CLI::App& app, const Console& console);
 std::vector<Command> AddModelsCommands(CLI::App& app, const Console& console);
 /// Training data on a server (data_command.cc).
 std::vector<Command> AddDataCommands(CLI::App& app, const Console& console);
+/// Trains networks on a server (train_command.cc).
+Command AddTrainCommand(CLI::App& app, const Console& console);
 /// For operators (admin_command.cc).
 std::vector<Command> AddAdminCommands(CLI::App& app, const Console& console);
 

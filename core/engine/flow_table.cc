@@ -4,10 +4,19 @@
 #include <fmt/ranges.h>
 
 #include "core/engine/correct_runner.h"
+#include "core/pipeline/train_vae_spec.h"
 #include "core/runtime/jobs/selftest_config.h"
 #include "core/runtime/jobs/selftest_runner.h"
 
 namespace poise::engine {
+
+namespace {
+
+Status ValidateTrainVae(const base::Json& parameters) {
+  return pipeline::TrainVaeSpec::FromParameters(parameters).status();
+}
+
+}  // namespace
 
 const std::vector<Flow>& FlowTable() {
   static const std::vector<Flow> flows = {
@@ -15,6 +24,7 @@ const std::vector<Flow>& FlowTable() {
        jobs::MakeSelftestRunner},
       {"correct", "variants of clips that a simulated body has imitated", ValidateCorrect,
        MakeCorrectRunner},
+      {"train_vae", "a variational autoencoder of one class's motions", ValidateTrainVae, nullptr},
   };
   return flows;
 }

@@ -18,6 +18,7 @@ struct Flow {
   std::string_view summary;  ///< for people
   /// Errors: kInvalidArgument with a field below "spec.parameters".
   Status (*validate)(const base::Json& parameters);
+  /// Null where the runner needs LibTorch, which the server need not load: learning_runners.h.
   std::unique_ptr<jobs::JobRunner> (*make_runner)();
 };
 

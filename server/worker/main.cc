@@ -17,6 +17,7 @@
 #include "core/base/memory_policy.h"
 #include "core/base/version.h"
 #include "core/engine/flow_table.h"
+#include "core/engine/learning_runners.h"
 #include "core/runtime/jobs/child_side.h"
 #include "server/log.h"
 #include "server/shutdown_signal.h"
@@ -161,12 +162,7 @@ int ExitCode(absl::StatusCode code) {
   }
 }
 
-int ServeChild() {
-  return jobs::ServeChild([](std::string_view kind) -> StatusOr<std::unique_ptr<jobs::JobRunner>> {
-    POISE_ASSIGN_OR_RETURN(const engine::Flow* flow, engine::FindFlow(kind));
-    return flow->make_runner();
-  });
-}
+int ServeChild() { return jobs::ServeChild(engine::MakeRunner); }
 
 // poised blocks it until this program can handle it.
 void UnblockTerminate() {

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "core/artifacts/model_artifact.h"
 #include "core/motion/io/clip_file.h"
@@ -22,7 +24,7 @@ using ::testing::HasSubstr;
 class ModelsCommandTest : public ::testing::Test {
  protected:
   ModelsCommandTest()
-      : server_({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--workers", "0",
+      : server_({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--workers", "1",
                  "--lame-duck-seconds", "0", "--data-dir", (folder_.path() / "data").string()}) {
     EXPECT_TRUE(server_.WaitForOutput("\n", absl::Seconds(60))) << server_.ErrorOutput();
     const std::string ready = server_.Output();
@@ -73,6 +75,39 @@ TEST_F(ModelsCommandTest, Hdm05IsAddedWhole) {
   EXPECT_EQ(set["frames"], 58517);
   EXPECT_EQ(set["actors"].size(), 5u);
   EXPECT_EQ(set["actions"]["kickLFront1Reps"], 28);
+}
+
+TEST_F(ModelsCommandTest, ANetworkIsTrainedByAJobAndMakesMotions) {
+  fs::create_directories(Path("clips/swing"));
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(motion::WriteBvhFile(Path("clips/swing/" + std::to_string(i) + ".bvh"),
+                                     SwingingClip(60, 120, 0.3, i))
+                    .ok());
+  }
+  ASSERT_EQ(Poise({"data", "add", "swings", Path("clips"), "--license", "mine"}).exit_code, 0);
+  const std::vector<std::string> train = {
+      "train",  "vae",           "--data", "swings",      "--class", "swing",
+      "--name", "swing",         "--seed", "3",           "--set",   "trainer.steps=20",
+      "--set",  "net.hidden=16", "--set",  "net.latent=4"};
+  const PoiseRun trained = Poise(train);
+  ASSERT_EQ(trained.exit_code, 0) << trained.out << trained.err;
+  const base::Json model = trained.JsonLines().back();
+  EXPECT_EQ(model["version"], "1");
+  EXPECT_EQ(model["card"]["data_license"], "mine");
+  EXPECT_EQ(model["card"]["steps"], 20);
+  EXPECT_EQ(model["card"]["seed"], 3);
+  EXPECT_EQ(Poise(train).JsonLines().back()["version"], "1") << "the same seed, the same model";
+  const PoiseRun made = Poise({"augment", Path("clips/swing/0.bvh"), "--method", "vae+timewarp",
+                               "--model", "swing", "-n", "3", "--out", Path("made")});
+  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  EXPECT_EQ(made.JsonLines().size(), 3u);
+  const PoiseRun without = Poise({"augment", Path("clips/swing/0.bvh"), "--method", "vae"});
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_EQ(without.Error()["reason"], "MISSING_MODEL");
+  const PoiseRun typo =
+      Poise({"train", "vae", "--data", "swings", "--name", "swing", "--set", "trainer.stepz=20"});
+  EXPECT_EQ(typo.exit_code, 2);
+  EXPECT_EQ(typo.Error()["reason"], "UNKNOWN_CONFIG_KEY");
 }
 
 TEST_F(ModelsCommandTest, AModelIsImportedExportedAndDeleted) {

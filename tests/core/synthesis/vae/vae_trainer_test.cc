@@ -55,7 +55,7 @@ TEST(VaeTrainerTest, OneKickIsReconstructedBelow005Rad) {
   task.clips = {kicks->clips.front()};
   task.config.net.hidden = 128;
   task.config.vae_optimizer.learning_rate = 3e-3;
-  task.config.trainer.steps = 500;
+  task.config.trainer.steps = 350;
   task.config.trainer.batch_size = 1;
   task.config.kl_weight = 0;
   task.config.adversarial = false;

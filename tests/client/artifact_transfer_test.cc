@@ -24,7 +24,7 @@ class ArtifactTransferTest : public ::testing::Test {
     ClientOptions options;
     options.server = server_.address;
     client_ = *Client::Connect(options);
-    for (int i = 0; i < 3 * kMiB; ++i) data_ += static_cast<char>(i * i >> 8);
+    for (unsigned i = 0; i < 3 * kMiB; ++i) data_ += static_cast<char>(i * i >> 8);
   }
 
   std::string WriteFile(const std::string& data) const {

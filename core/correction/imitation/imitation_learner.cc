@@ -167,6 +167,7 @@ void ImitationLearner::State::Report(const base::RunContext& context, double sec
                   .message = "policy",
                   .metrics = {{"reward", best.reward_normalised},
                               {"force", best.residual_force_mean_bw},
+                              {"torque", best.residual_torque_mean_nm},
                               {"completed", static_cast<double>(best.completed) / best.variants},
                               {"samples", done},
                               {"eta_s", std::max(eta, 0.0)}}});

@@ -94,9 +94,7 @@ StatusOr<Learned> LearnIteratively(MotionTracker& tracker, const ReferenceMotion
     context.Report({.step = static_cast<int64_t>(learned.scores.size()),
                     .total = config.rollouts,
                     .message = "rollout",
-                    .metrics = {{"samples", static_cast<double>(learned.scores.size()) *
-                                                reference.num_frames()},
-                                {"reward", learned.scores.back().reward_normalised},
+                    .metrics = {{"reward", learned.scores.back().reward_normalised},
                                 {"force", learned.scores.back().residual_force_mean_bw},
                                 {"torque", learned.scores.back().residual_torque_mean_nm}}});
   }

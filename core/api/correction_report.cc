@@ -31,6 +31,7 @@ StatusOr<CorrectedVariantReport> ReadVariant(const Json& json) {
   variant.index = json.at("index").get<int>();
   variant.seed = json.at("seed").get<uint64_t>();
   variant.completed = json.at("completed").get<bool>();
+  variant.effort = json.at("effort").get<std::string>();
   POISE_RETURN_IF_ERROR(base::FieldsFromJson(json.at("before"), variant.before.Fields()));
   if (!json.at("after").is_null()) {
     POISE_RETURN_IF_ERROR(ReadMeasures(json["after"], variant.after.emplace()));
@@ -124,6 +125,7 @@ base::Json ToJson(const CorrectedVariantReport& variant) {
                {"index", variant.index},
                {"seed", variant.seed},
                {"completed", variant.completed},
+               {"effort", variant.effort},
                {"before", motion::ToJson(variant.before)},
                {"after", variant.after ? MeasuresJson(*variant.after) : Json(nullptr)}};
   if (variant.error) {

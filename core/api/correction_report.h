@@ -44,9 +44,10 @@ struct ZeroPolicyReport {
   CorrectionMeasures measures;
 };
 
-/// Mean over the variants after so much simulation.
+/// Mean over the variants after so much simulation; of a policy over variants that it did not learn
+/// from.
 struct RewardPoint {
-  int64_t samples = 0;  ///< control steps of one variant, or of the learner
+  int64_t samples = 0;
   double reward_normalised = 0;
   double residual_force_mean_bw = 0;
   double residual_torque_mean_nm = 0;
@@ -60,6 +61,7 @@ struct CorrectedVariantReport {
   uint64_t seed = 0;  ///< of this variant's own random stream
   /// No fall, and never far from its reference. False: the file shows the fall.
   bool completed = false;
+  std::string effort;           ///< whose imitation was the best: instant | fast | full
   motion::Plausibility before;  ///< by the character's own bodies, like `after`
   std::optional<CorrectionMeasures> after;
   std::optional<JobError> error;  ///< why there is no correction: DIVERGED, OUT_OF_TIME
@@ -67,8 +69,9 @@ struct CorrectedVariantReport {
 
 struct CorrectedClipReport {
   std::string name;
-  int64_t samples = 0;  ///< control steps simulated for it
-  /// Why no more was tried: finished (the effort was made) | max_seconds.
+  int64_t samples = 0;  ///< simulated frames, and actions that a policy learned from
+  /// Why no more was tried: finished (the effort was made) | max_seconds; of a policy that was
+  /// learned also converged | max_samples.
   std::string stopped_by;
   std::optional<ZeroPolicyReport> zero_policy;  ///< absent when time was up before
   std::vector<RewardPoint> reward_curve;

@@ -17,13 +17,42 @@ Status Corrupt() {
                          "the checkpoint is none of this correction");
 }
 
-Json VariantJson(const pipeline::CorrectedVariant& variant) {
-  Json curve = Json::array();
-  for (api::RewardPoint point : variant.curve) {
-    curve.push_back(base::FieldsToJson(point.Fields()));
+Json CurveJson(const std::vector<api::RewardPoint>& curve) {
+  Json json = Json::array();
+  for (api::RewardPoint point : curve) json.push_back(base::FieldsToJson(point.Fields()));
+  return json;
+}
+
+StatusOr<std::vector<api::RewardPoint>> CurveFromJson(const Json& json) {
+  std::vector<api::RewardPoint> curve;
+  for (const Json& point : json) {
+    POISE_RETURN_IF_ERROR(base::FieldsFromJson(point, curve.emplace_back().Fields()));
   }
+  return curve;
+}
+
+Json PolicyJson(const pipeline::LearnedPolicy& policy) {
+  return {{"checkpoint", Json::binary({policy.checkpoint.begin(), policy.checkpoint.end()})},
+          {"finished", policy.finished},
+          {"stopped_by", policy.stopped_by},
+          {"curve", CurveJson(policy.curve)},
+          {"samples", policy.samples}};
+}
+
+StatusOr<pipeline::LearnedPolicy> PolicyFromJson(const Json& json) {
+  pipeline::LearnedPolicy policy;
+  const auto& bytes = json.at("checkpoint").get_binary();
+  policy.checkpoint.assign(bytes.begin(), bytes.end());
+  policy.finished = json.at("finished").get<bool>();
+  policy.stopped_by = json.at("stopped_by").get<std::string>();
+  POISE_ASSIGN_OR_RETURN(policy.curve, CurveFromJson(json.at("curve")));
+  policy.samples = json.at("samples").get<int64_t>();
+  return policy;
+}
+
+Json VariantJson(const pipeline::CorrectedVariant& variant) {
   return {{"source_index", variant.source_index}, {"report", api::ToJson(variant.report)},
-          {"file_data", variant.file_data},       {"curve", std::move(curve)},
+          {"file_data", variant.file_data},       {"curve", CurveJson(variant.curve)},
           {"samples", variant.samples},           {"timed_out", variant.timed_out}};
 }
 
@@ -32,9 +61,7 @@ StatusOr<pipeline::CorrectedVariant> VariantFromJson(const Json& json) {
   variant.source_index = json.at("source_index").get<int>();
   POISE_ASSIGN_OR_RETURN(variant.report, api::CorrectedVariantFromJson(json.at("report")));
   variant.file_data = json.at("file_data").get<std::string>();
-  for (const Json& point : json.at("curve")) {
-    POISE_RETURN_IF_ERROR(base::FieldsFromJson(point, variant.curve.emplace_back().Fields()));
-  }
+  POISE_ASSIGN_OR_RETURN(variant.curve, CurveFromJson(json.at("curve")));
   variant.samples = json.at("samples").get<int64_t>();
   variant.timed_out = json.at("timed_out").get<bool>();
   return variant;
@@ -63,7 +90,12 @@ Status ReadPresent(const Json& json, Decode decode, std::vector<std::optional<Va
 }  // namespace
 
 std::string EncodeCheckpoint(const pipeline::CorrectState& state) {
-  const Json json = {{"zero_policies",
+  Json policies = Json::array();
+  for (const pipeline::LearnedPolicy& policy : state.policies) {
+    policies.push_back(PolicyJson(policy));
+  }
+  const Json json = {{"policies", std::move(policies)},
+                     {"zero_policies",
                       Present(state.zero_policies,
                               [](const api::ZeroPolicyReport& zero) { return api::ToJson(zero); })},
                      {"variants", Present(state.variants, VariantJson)},
@@ -78,6 +110,10 @@ StatusOr<pipeline::CorrectState> DecodeCheckpoint(std::string_view bytes,
                                                   pipeline::CorrectState empty) {
   try {
     const Json json = Json::from_cbor(bytes);
+    if (json.at("policies").size() != empty.policies.size()) return Corrupt();
+    for (size_t i = 0; i < empty.policies.size(); ++i) {
+      POISE_ASSIGN_OR_RETURN(empty.policies[i], PolicyFromJson(json["policies"][i]));
+    }
     POISE_RETURN_IF_ERROR(
         ReadPresent(json.at("zero_policies"), api::ZeroPolicyFromJson, empty.zero_policies));
     POISE_RETURN_IF_ERROR(ReadPresent(json.at("variants"), VariantFromJson, empty.variants));

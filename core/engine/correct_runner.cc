@@ -16,6 +16,7 @@
 #include "core/engine/clip_catalog.h"
 #include "core/engine/correct_checkpoint.h"
 #include "core/pipeline/correct_run.h"
+#include "core/pipeline/correct_settings.h"
 
 namespace poise::engine {
 namespace {

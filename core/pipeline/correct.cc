@@ -8,65 +8,19 @@
 
 #include "core/base/random.h"
 #include "core/correction/corrector.h"
-#include "core/synthesis/synthesizer_registry.h"
+#include "core/correction/imitation/imitation_learner.h"
+#include "core/pipeline/correct_settings.h"
 
 namespace poise::pipeline {
 namespace {
 
 using correction::CorrectionConfig;
 using correction::Corrector;
+using correction::ImitationLearner;
 using correction::TrackingScore;
 
-constexpr char kNoMethod[] = "none";
-
-// Whether the key is of a step of the method: "ik.radius_low" of "ik+timewarp".
-bool IsOfMethod(const std::string& key, const std::string& method) {
-  const std::string step = key.substr(0, key.find('.'));
-  return ("+" + method + "+").find("+" + step + "+") != std::string::npos;
-}
-
-base::Overrides OverridesOf(const api::CorrectSpec& spec, bool of_method) {
-  base::Overrides overrides;
-  for (const auto& [key, value] : spec.overrides) {
-    if (IsOfMethod(key, spec.method) == of_method) overrides[key] = value;
-  }
-  return overrides;
-}
-
-api::AugmentSpec AugmentSpecOf(const api::CorrectSpec& spec, uint64_t seed) {
-  api::AugmentSpec augment;
-  augment.sources = spec.sources;
-  augment.method = spec.method;
-  augment.action_class = spec.action_class;
-  augment.preset = spec.preset;
-  augment.variants_per_source = spec.Variants();
-  augment.seed = seed;
-  augment.overrides = OverridesOf(spec, /*of_method=*/true);
-  augment.with_plausibility = false;  // the corrector measures, by the character's own bodies
-  return augment;
-}
-
-StatusOr<CorrectionConfig> ConfigOf(const api::CorrectSpec& spec) {
-  if (spec.effort == "full") {
-    return base::FailedPrecondition(
-        "EFFORT_NOT_AVAILABLE", "effort",
-        "effort full learns a policy, which this version cannot do yet: use fast or instant");
-  }
-  POISE_ASSIGN_OR_RETURN(CorrectionConfig config, CorrectionConfig::FromPreset(spec.preset));
-  config.effort = spec.effort;
-  if (spec.body_mass_kg > 0) config.humanoid.body_mass_kg = spec.body_mass_kg;
-  if (spec.residual == "none") config.tracking.residual_factor = 0;
-  POISE_RETURN_IF_ERROR(
-      base::ApplyOverrides(OverridesOf(spec, /*of_method=*/false), config.Fields()));
-  return config;
-}
-
-CorrectionConfig ZeroPolicyConfig(const CorrectionConfig& config) {
-  CorrectionConfig zero = *CorrectionConfig::FromPreset("paper");
-  zero.effort = "instant";
-  zero.humanoid.body_mass_kg = config.humanoid.body_mass_kg;
-  return zero;
-}
+/// Variants to learn from are drawn from a request of their own, so that none is corrected later.
+constexpr uint64_t kTrainingStream = 0x7261696e;
 
 CorrectionConfig WithoutLearning(CorrectionConfig config) {
   config.effort = "instant";
@@ -99,12 +53,24 @@ std::vector<api::RewardPoint> CurveOf(const correction::Correction& correction) 
   return curve;
 }
 
+std::vector<api::RewardPoint> CurveOf(const correction::TrainingReport& report) {
+  std::vector<api::RewardPoint> curve;
+  for (const correction::PolicyScore& score : report.curve) {
+    curve.push_back({.samples = score.samples,
+                     .reward_normalised = score.reward_normalised,
+                     .residual_force_mean_bw = score.residual_force_mean_bw,
+                     .residual_torque_mean_nm = score.residual_torque_mean_nm});
+  }
+  return curve;
+}
+
 // A source with the characters of its own bone lengths.
 struct Source {
   ResolvedSource resolved;
   Corrector corrector;
   Corrector quick;  // without learning
   Corrector zero;
+  std::optional<ImitationLearner> learner = {};  // once Learn made it
 };
 
 StatusOr<Source> MakeSource(ResolvedSource resolved, const CorrectionConfig& config) {
@@ -119,28 +85,23 @@ StatusOr<Source> MakeSource(ResolvedSource resolved, const CorrectionConfig& con
 
 }  // namespace
 
-Status CheckCorrect(const api::CorrectSpec& spec) {
-  POISE_RETURN_IF_ERROR(spec.Validate());
-  POISE_ASSIGN_OR_RETURN(CorrectionConfig config, ConfigOf(spec));
-  POISE_RETURN_IF_ERROR(base::CheckRanges(config.Fields()));
-  if (spec.method == kNoMethod) return absl::OkStatus();
-  const api::AugmentSpec augment = AugmentSpecOf(spec, /*seed=*/0);
-  return synthesis::CreateMethod(augment.method, {.action_class = augment.action_class,
-                                                  .preset = augment.preset,
-                                                  .overrides = augment.overrides})
-      .status();
-}
-
 class CorrectFlow::Implementation {
  public:
-  Implementation(const api::CorrectSpec& spec, uint64_t seed, const CorrectionConfig& config,
-                 std::vector<Source> sources, std::unique_ptr<AugmentFlow> augment)
+  Implementation(const api::CorrectSpec& spec, uint64_t seed, CorrectSettings settings,
+                 std::vector<Source> sources, std::unique_ptr<AugmentFlow> augment,
+                 std::unique_ptr<AugmentFlow> training)
       : method(spec.method),
         seed(seed),
         variants_per_source(spec.Variants()),
-        rollouts(config.effort == "instant" ? 1 : config.learning.rollouts),
+        settings(std::move(settings)),
         sources(std::move(sources)),
-        augment(std::move(augment)) {}
+        augment(std::move(augment)),
+        training(std::move(training)) {}
+
+  // Of one pass over the motion.
+  int rollouts() const {
+    return settings.correction.effort == "instant" ? 1 : settings.correction.learning.rollouts;
+  }
 
   StatusOr<api::Variant> Make(int64_t ordinal, const base::RunContext& context) const {
     if (augment != nullptr) return augment->Make(ordinal, context);
@@ -157,7 +118,8 @@ class CorrectFlow::Implementation {
   static StatusOr<correction::Correction> Try(const Source& source, const motion::Clip& clip,
                                               const base::RunContext& context,
                                               absl::Time last_call) {
-    auto correction = source.corrector.Correct(clip, context);
+    auto correction = source.learner ? source.learner->Correct(clip, context)
+                                     : source.corrector.Correct(clip, context);
     if (!absl::IsDeadlineExceeded(correction.status())) return correction;
     base::RunContext rest = context;
     rest.deadline = last_call;
@@ -166,12 +128,37 @@ class CorrectFlow::Implementation {
     return correction;
   }
 
+  correction::VariantSource TrainingVariants(int source) const {
+    if (training == nullptr) {
+      return [this, source](uint64_t) { return sources[source].resolved.clip; };
+    }
+    return [this, source](uint64_t draw) -> StatusOr<motion::Clip> {
+      const int64_t per_source = training->num_variants() / static_cast<int64_t>(sources.size());
+      const int64_t ordinal = source * per_source + static_cast<int64_t>(draw % per_source);
+      POISE_ASSIGN_OR_RETURN(api::Variant variant, training->Make(ordinal, {}));
+      return std::move(variant.clip);
+    };
+  }
+
+  // The learner of a source as its checkpoint left it.
+  StatusOr<ImitationLearner*> Learner(int source, const LearnedPolicy& policy) {
+    std::optional<ImitationLearner>& learner = sources[source].learner;
+    const uint64_t own_seed =
+        base::DeriveSeed(seed, {kTrainingStream, static_cast<uint64_t>(source)});
+    POISE_ASSIGN_OR_RETURN(
+        learner, ImitationLearner::Create(sources[source].corrector, TrainingVariants(source),
+                                          settings.imitation, own_seed));
+    if (!policy.checkpoint.empty()) POISE_RETURN_IF_ERROR(learner->Restore(policy.checkpoint));
+    return &*learner;
+  }
+
   const std::string method;
   const uint64_t seed;
   const int variants_per_source;
-  const int rollouts;
-  const std::vector<Source> sources;
-  const std::unique_ptr<AugmentFlow> augment;  // none for the method none
+  const CorrectSettings settings;
+  std::vector<Source> sources;
+  const std::unique_ptr<AugmentFlow> augment;   // none for the method none
+  const std::unique_ptr<AugmentFlow> training;  // for effort full; none for the method none
 };
 
 CorrectFlow::CorrectFlow(std::unique_ptr<Implementation> implementation)
@@ -182,29 +169,47 @@ StatusOr<std::unique_ptr<CorrectFlow>> CorrectFlow::Create(const api::CorrectSpe
                                                            uint64_t seed,
                                                            std::vector<ResolvedSource> sources) {
   POISE_RETURN_IF_ERROR(CheckCorrect(spec));
-  POISE_ASSIGN_OR_RETURN(const CorrectionConfig config, ConfigOf(spec));
-  std::unique_ptr<AugmentFlow> augment;
+  POISE_ASSIGN_OR_RETURN(CorrectSettings settings, CorrectSettings::From(spec));
+  std::unique_ptr<AugmentFlow> augment, training;
   if (spec.method != kNoMethod) {
     POISE_ASSIGN_OR_RETURN(augment, AugmentFlow::Create(AugmentSpecOf(spec, seed), sources));
+  }
+  if (augment != nullptr && settings.learns) {
+    api::AugmentSpec draws = AugmentSpecOf(spec, base::DeriveSeed(seed, {kTrainingStream}));
+    draws.variants_per_source = api::AugmentSpec::kMaxVariants;
+    POISE_ASSIGN_OR_RETURN(training, AugmentFlow::Create(draws, sources));
   }
   std::vector<Source> made;
   for (ResolvedSource& source : sources) {
     const std::string field = fmt::format("sources[{}]", made.size());
     const std::string clip = fmt::format("clip '{}'", source.clip.name());
-    StatusOr<Source> one = MakeSource(std::move(source), config);
+    StatusOr<Source> one = MakeSource(std::move(source), settings.correction);
     if (!one.ok()) return base::Annotate(one.status(), clip, field);
     made.push_back(*std::move(one));
   }
-  return std::unique_ptr<CorrectFlow>(new CorrectFlow(
-      std::make_unique<Implementation>(spec, seed, config, std::move(made), std::move(augment))));
+  return std::unique_ptr<CorrectFlow>(new CorrectFlow(std::make_unique<Implementation>(
+      spec, seed, std::move(settings), std::move(made), std::move(augment), std::move(training))));
 }
 
 int CorrectFlow::num_sources() const { return static_cast<int>(implementation_->sources.size()); }
 int CorrectFlow::variants_per_source() const { return implementation_->variants_per_source; }
-int CorrectFlow::rollouts() const { return implementation_->rollouts; }
+bool CorrectFlow::learns() const { return implementation_->settings.learns; }
 
 int64_t CorrectFlow::num_variants() const {
   return int64_t{num_sources()} * implementation_->variants_per_source;
+}
+
+int64_t CorrectFlow::frames(int source) const {
+  return implementation_->sources[source].resolved.clip.num_frames();
+}
+
+int64_t CorrectFlow::samples_per_variant(int source) const {
+  // A policy's corrections are held against those without it.
+  return frames(source) * implementation_->rollouts() * (learns() ? 2 : 1);
+}
+
+int64_t CorrectFlow::max_training_samples() const {
+  return learns() ? implementation_->settings.imitation.max_samples : 0;
 }
 
 const std::string& CorrectFlow::source_name(int source) const {
@@ -218,6 +223,27 @@ StatusOr<api::ZeroPolicyReport> CorrectFlow::ZeroPolicy(int source,
                          from.zero.Correct(from.resolved.clip, context));
   return api::ZeroPolicyReport{.completed = correction.score.completed,
                                .measures = {correction.after, ScoreOf(correction.score)}};
+}
+
+Status CorrectFlow::Learn(int source, const base::RunContext& context,
+                          const std::function<Status(const LearnedPolicy&)>& save,
+                          LearnedPolicy& policy) {
+  POISE_ASSIGN_OR_RETURN(ImitationLearner* const learner, implementation_->Learner(source, policy));
+  if (policy.finished) return absl::OkStatus();
+  POISE_ASSIGN_OR_RETURN(const correction::TrainingReport report,
+                         learner->Train(context, [&](std::string checkpoint) {
+                           policy.checkpoint = std::move(checkpoint);
+                           return save(policy);
+                         }));
+  POISE_RETURN_IF_ERROR(context.Check());
+  policy.checkpoint = learner->Save();
+  policy.finished = true;
+  policy.curve = CurveOf(report);
+  policy.samples = report.samples;
+  policy.stopped_by = report.converged                           ? "converged"
+                      : report.samples >= max_training_samples() ? "max_samples"
+                                                                 : "max_seconds";
+  return save(policy);
 }
 
 StatusOr<CorrectedVariant> CorrectFlow::Correct(int64_t ordinal, const base::RunContext& context,
@@ -234,6 +260,7 @@ StatusOr<CorrectedVariant> CorrectFlow::Correct(int64_t ordinal, const base::Run
   auto correction = Implementation::Try(source, variant.clip, context, last_call);
   if (correction.ok()) {
     result.report.completed = correction->score.completed;
+    result.report.effort = correction->effort;
     result.report.before = correction->before;
     result.report.after = {correction->after, ScoreOf(correction->score)};
     result.curve = CurveOf(*correction);

@@ -2,6 +2,7 @@
 #define POISE_CORE_PIPELINE_CORRECT_H_
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,11 +16,6 @@
 
 namespace poise::pipeline {
 
-/// Everything of a CorrectSpec that can be checked without its clips.
-/// Errors: those of CorrectSpec::Validate; kInvalidArgument UNKNOWN_METHOD, UNKNOWN_ACTION_CLASS,
-/// UNKNOWN_CONFIG_KEY and the other config errors; kFailedPrecondition EFFORT_NOT_AVAILABLE.
-Status CheckCorrect(const api::CorrectSpec& spec);
-
 /// A variant after the body has imitated it.
 struct CorrectedVariant {
   int source_index = 0;
@@ -31,10 +27,21 @@ struct CorrectedVariant {
   bool timed_out = false;               ///< the deadline came before the effort was made
 };
 
+/// What the effort `full` learned of one source; goes on from attempt to attempt.
+struct LearnedPolicy {
+  std::string checkpoint;  ///< of the ImitationLearner; empty: nothing yet
+  bool finished = false;
+  std::string stopped_by;               ///< see CorrectedClipReport
+  std::vector<api::RewardPoint> curve;  ///< on variants that it did not learn from
+  int64_t samples = 0;                  ///< actions that it learned from
+};
+
 /// The correction flow: variants of clips, made by AugmentFlow and imitated by a simulated body,
 /// one at a time and in any order. Variant `ordinal` is the one of AugmentFlow, and the same
-/// whatever thread corrects it and whatever was corrected before.
-/// Threads: all members may be called from several threads.
+/// whatever thread corrects it and whatever was corrected before. With the effort `full` a policy
+/// is learned for a source before its variants, from other variants of the same method.
+/// Threads: all members may be called from several threads, Learn from one for each source and
+/// before its variants.
 class CorrectFlow {
  public:
   /// `seed` is that of the variants. Errors: those of CheckCorrect, AugmentFlow::Create and
@@ -46,12 +53,24 @@ class CorrectFlow {
   int num_sources() const;
   int64_t num_variants() const;
   int variants_per_source() const;
-  /// Rollouts that a correction takes: 1 without learning.
-  int rollouts() const;
+  /// Frames that a correction simulates: all rollouts of a variant of this source.
+  int64_t samples_per_variant(int source) const;
+  /// The same of a zero policy.
+  int64_t frames(int source) const;
+  /// Whether a policy is learned (effort full), and from how many samples at most.
+  bool learns() const;
+  int64_t max_training_samples() const;
   const std::string& source_name(int source) const;
 
   /// The preset `paper` without learning, on the source itself. Errors: as Correct; DIVERGED.
   StatusOr<api::ZeroPolicyReport> ZeroPolicy(int source, const base::RunContext& context) const;
+
+  /// Learns the policy that Correct then uses, from where `policy` is; one that is finished is only
+  /// read. `save` gets it now and then. Stops when the policy gains no more, and at the limits of
+  /// the learner's config. Progress: see ImitationLearner. Errors: kCancelled, kDeadlineExceeded of
+  /// `context`; those of ImitationLearner and of `save`.
+  Status Learn(int source, const base::RunContext& context,
+               const std::function<Status(const LearnedPolicy&)>& save, LearnedPolicy& policy);
 
   /// With deadlines the best until context.deadline; when that comes before the first rollout ends,
   /// the controller without learning until `last_call`; when that comes too, a report with the

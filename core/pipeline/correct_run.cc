@@ -56,12 +56,13 @@ std::vector<api::RewardPoint> MeanCurve(const std::vector<const CorrectedVariant
 
 CorrectState CorrectState::Empty(const CorrectFlow& flow) {
   CorrectState state;
+  state.policies.resize(flow.num_sources());
   state.zero_policies.resize(flow.num_sources());
   state.variants.resize(flow.num_variants());
   return state;
 }
 
-CorrectRun::CorrectRun(const CorrectFlow& flow, CorrectRunConfig config, CorrectState state)
+CorrectRun::CorrectRun(CorrectFlow& flow, CorrectRunConfig config, CorrectState state)
     : flow_(flow), config_(std::move(config)), state_(std::move(state)) {
   for (int source = 0; source < flow.num_sources(); ++source) {
     if (!state_.zero_policies[source]) units_.push_back({.is_variant = false, .index = source});
@@ -70,30 +71,77 @@ CorrectRun::CorrectRun(const CorrectFlow& flow, CorrectRunConfig config, Correct
       if (!state_.variants[i]) units_.push_back({.is_variant = true, .index = i});
     }
   }
-  variants_waiting_ =
-      std::count_if(units_.begin(), units_.end(), [](const Unit& unit) { return unit.is_variant; });
-  total_ = flow.num_sources() + flow.num_variants() * flow.rollouts();
+  for (int source = 0; source < flow.num_sources(); ++source) {
+    total_ += flow.max_training_samples() + flow.frames(source) +
+              flow.variants_per_source() * flow.samples_per_variant(source);
+  }
   step_ = total_;
-  for (const Unit& unit : units_) step_ -= unit.is_variant ? flow.rollouts() : 1;
+  for (const Unit& unit : units_) step_ -= StepsOf(unit);
+  for (const LearnedPolicy& policy : state_.policies) {
+    if (!policy.finished) step_ -= flow.max_training_samples();
+  }
   first_step_ = step_;
+}
+
+int64_t CorrectRun::StepsOf(const Unit& unit) const {
+  if (!unit.is_variant) return flow_.frames(static_cast<int>(unit.index));
+  return flow_.samples_per_variant(static_cast<int>(unit.index / flow_.variants_per_source()));
 }
 
 Status CorrectRun::Run(const base::RunContext& context) {
   context_ = context;
   start_ = absl::Now();
   seconds_before_ = state_.seconds;
-  if (config_.max_seconds > 0) {
-    time_up_ = start_ + absl::Seconds(config_.max_seconds - seconds_before_);
-  }
+  absl::Time end = absl::InfiniteFuture();
+  if (config_.max_seconds > 0) end = start_ + absl::Seconds(config_.max_seconds - seconds_before_);
   threads_ = config_.threads > 0 ? config_.threads : base::AvailableCpus();
-  threads_ = std::clamp<int>(threads_, 1, std::max<int>(1, static_cast<int>(units_.size())));
   {
     std::lock_guard lock(mutex_);
     ReportProgress();
   }
+  const int sources = flow_.num_sources();
+  if (!flow_.learns()) return RunSources(0, sources, end);
+  for (int source = 0; source < sources; ++source) {
+    const absl::Time now = absl::Now();
+    const absl::Time time_up =
+        end == absl::InfiniteFuture() ? end : now + (end - now) / (sources - source);
+    POISE_RETURN_IF_ERROR(Learn(source));
+    POISE_RETURN_IF_ERROR(RunSources(source, source + 1, time_up));
+  }
+  return absl::OkStatus();
+}
+
+Status CorrectRun::Learn(int source) {
+  LearnedPolicy policy = state_.policies[source];
+  base::RunContext context = context_;
+  context.progress = [&](const base::Progress& progress) {
+    std::lock_guard lock(mutex_);
+    learning_ = progress;
+    ReportProgress();
+  };
+  const auto save = [&](const LearnedPolicy& learned) {
+    std::lock_guard lock(mutex_);
+    state_.policies[source] = learned;
+    if (learned.finished) learning_.reset();
+    return Count(learned.finished ? flow_.max_training_samples() : 0);
+  };
+  return flow_.Learn(source, context, save, policy);
+}
+
+Status CorrectRun::RunSources(int first, int last, absl::Time time_up) {
+  const auto is_before = [this](const Unit& unit, int source) {
+    return (unit.is_variant ? unit.index / flow_.variants_per_source() : unit.index) < source;
+  };
+  const auto begin = std::lower_bound(units_.begin(), units_.end(), first, is_before);
+  const auto end = std::lower_bound(begin, units_.end(), last, is_before);
+  time_up_ = time_up;
+  next_unit_ = static_cast<size_t>(begin - units_.begin());
+  end_unit_ = static_cast<size_t>(end - units_.begin());
+  variants_waiting_ = std::count_if(begin, end, [](const Unit& unit) { return unit.is_variant; });
   {
-    base::ThreadPool pool(threads_);
-    for (int i = 0; i < threads_; ++i) pool.Submit([this] { Work(); });
+    const int most = std::max<int>(1, static_cast<int>(end - begin));
+    base::ThreadPool pool(std::clamp(threads_, 1, most));
+    for (int i = 0; i < pool.size(); ++i) pool.Submit([this] { Work(); });
   }
   return status_;
 }
@@ -110,7 +158,7 @@ void CorrectRun::Work() {
 
 std::optional<CorrectRun::Unit> CorrectRun::NextUnit() {
   std::lock_guard lock(mutex_);
-  if (!status_.ok() || next_unit_ == units_.size()) return std::nullopt;
+  if (!status_.ok() || next_unit_ == end_unit_) return std::nullopt;
   return units_[next_unit_++];
 }
 
@@ -124,7 +172,7 @@ Status CorrectRun::DoZeroPolicy(int source) {
   std::lock_guard lock(mutex_);
   // A baseline that there is no time for, or that no simulation survives, is no error.
   if (zero.ok()) state_.zero_policies[source] = *std::move(zero);
-  return Count(1);
+  return Count(flow_.frames(source));
 }
 
 Status CorrectRun::DoVariant(int64_t ordinal) {
@@ -138,7 +186,7 @@ Status CorrectRun::DoVariant(int64_t ordinal) {
   std::lock_guard lock(mutex_);
   running_.erase(ordinal);
   state_.variants[ordinal] = std::move(variant);
-  return Count(flow_.rollouts());
+  return Count(StepsOf({.is_variant = true, .index = ordinal}));
 }
 
 absl::Time CorrectRun::ShareOfTime() {
@@ -152,7 +200,10 @@ absl::Time CorrectRun::ShareOfTime() {
 
 void CorrectRun::ShowRollout(int64_t ordinal, const base::Progress& progress) {
   std::lock_guard lock(mutex_);
-  running_[ordinal] = progress;
+  Running& running = running_[ordinal];
+  // Once after each rollout; a policy's corrections come to the motion twice.
+  running.samples += flow_.frames(static_cast<int>(ordinal / flow_.variants_per_source()));
+  running.progress = progress;
   ReportProgress();
 }
 
@@ -166,32 +217,41 @@ Status CorrectRun::Count(int64_t steps) {
 void CorrectRun::ReportProgress() const {
   Tally tally;
   int64_t step = step_;
-  double samples = 0;
+  int64_t samples = 0;
+  for (const LearnedPolicy& policy : state_.policies) samples += policy.samples;
   for (const auto& variant : state_.variants) {
     if (!variant) continue;
-    samples += static_cast<double>(variant->samples);
+    samples += variant->samples;
     if (!variant->report.after) continue;
     const api::CorrectionScore& score = variant->report.after->score;
     tally.Add(score.reward_normalised, score.residual_force_mean_bw, score.residual_torque_mean_nm);
   }
-  for (const auto& [ordinal, progress] : running_) {
-    step += progress.step;
-    samples += Metric(progress, "samples");
+  const auto add = [&](const base::Progress& progress, int64_t more) {
+    step += more;
+    samples += more;
     tally.Add(Metric(progress, "reward"), Metric(progress, "force"), Metric(progress, "torque"));
+  };
+  for (const auto& [ordinal, running] : running_) add(running.progress, running.samples);
+  if (learning_) {
+    tally = Tally();  // of its own variants, and of no others
+    add(*learning_, learning_->step);
   }
-  base::Progress progress{.step = step, .total = total_, .message = "correcting"};
-  progress.metrics["samples"] = samples;
+  base::Progress progress{
+      .step = step, .total = total_, .message = learning_ ? "learning" : "correcting"};
+  progress.metrics["samples"] = static_cast<double>(samples);
   if (tally.count > 0) {
     progress.metrics["reward"] = tally.reward / tally.count;
     progress.metrics["force"] = tally.force / tally.count;
     progress.metrics["torque"] = tally.torque / tally.count;
   }
-  if (step > first_step_) {
+  if (learning_) {
+    progress.metrics["eta_s"] = Metric(*learning_, "eta_s");
+  } else if (step > first_step_) {
     const absl::Time now = absl::Now();
-    const absl::Duration left = (now - start_) * (static_cast<double>(total_ - step) /
-                                                  static_cast<double>(step - first_step_));
+    const double rest =
+        static_cast<double>(total_ - step) / static_cast<double>(step - first_step_);
     progress.metrics["eta_s"] =
-        std::max(0.0, absl::ToDoubleSeconds(std::min(left, time_up_ - now)));
+        std::max(0.0, absl::ToDoubleSeconds(std::min((now - start_) * rest, time_up_ - now)));
   }
   context_.Report(progress);
 }
@@ -200,7 +260,9 @@ api::CorrectedClipReport CorrectRun::Report(int source) const {
   api::CorrectedClipReport report;
   report.name = flow_.source_name(source);
   report.zero_policy = state_.zero_policies[source];
-  report.stopped_by = "finished";
+  const LearnedPolicy& policy = state_.policies[source];
+  report.stopped_by = policy.finished ? policy.stopped_by : "finished";
+  report.samples = policy.samples;
   std::vector<const CorrectedVariant*> variants;
   const int64_t first = int64_t{source} * flow_.variants_per_source();
   for (int64_t i = first; i < first + flow_.variants_per_source(); ++i) {
@@ -210,7 +272,7 @@ api::CorrectedClipReport CorrectRun::Report(int source) const {
     report.variants.push_back(variant.report);
     variants.push_back(&variant);
   }
-  report.reward_curve = MeanCurve(variants);
+  report.reward_curve = policy.finished ? policy.curve : MeanCurve(variants);
   return report;
 }
 

@@ -15,6 +15,7 @@ namespace poise::pipeline {
 
 /// What is done of a correction; goes on from attempt to attempt.
 struct CorrectState {
+  std::vector<LearnedPolicy> policies;                              // (sources)
   std::vector<std::optional<api::ZeroPolicyReport>> zero_policies;  // (sources)
   std::vector<std::optional<CorrectedVariant>> variants;            // (num_variants)
   double seconds = 0;  ///< that it took so far, over all attempts
@@ -33,20 +34,22 @@ struct CorrectRunConfig {
 };
 
 /// Corrects all variants of a flow that are not done, several at a time. Time that is limited is
-/// shared: no variant takes so much that a later one gets none.
-/// Progress: step counts rollouts; the metrics samples, reward (normalised), force (mean, body
-/// weights), torque (mean, N m), eta_s.
+/// shared: no variant takes so much that a later one gets none. With the effort `full` the sources
+/// come one after the other: first their policy, with all threads, then their variants.
+/// Progress: step counts samples, which are simulated frames, or actions that a policy learned
+/// from; the metrics samples, reward (normalised), force (mean, body weights), torque (mean, N m),
+/// eta_s.
 class CorrectRun {
  public:
   /// `flow` must outlive it; `state` has its shape.
-  CorrectRun(const CorrectFlow& flow, CorrectRunConfig config, CorrectState state);
+  CorrectRun(CorrectFlow& flow, CorrectRunConfig config, CorrectState state);
 
   /// Once. Errors: those of CorrectFlow and of the callbacks; kCancelled, kDeadlineExceeded of
   /// `context`. What was done before the error is in state().
   Status Run(const base::RunContext& context);
 
   const CorrectState& state() const { return state_; }
-  /// Rollouts done. With mutex_ held, or after Run.
+  /// Samples done. After Run.
   int64_t step() const { return step_; }
 
   /// What came of one source.
@@ -59,6 +62,9 @@ class CorrectRun {
     int64_t index = 0;
   };
 
+  /// All that is not done of the sources from `first` to before `last`.
+  Status RunSources(int first, int last, absl::Time time_up);
+  Status Learn(int source);
   void Work();
   std::optional<Unit> NextUnit();
   Status DoZeroPolicy(int source);
@@ -66,9 +72,10 @@ class CorrectRun {
   absl::Time ShareOfTime();
   void ShowRollout(int64_t ordinal, const base::Progress& progress);
   Status Count(int64_t steps);  // with mutex_ held
+  int64_t StepsOf(const Unit& unit) const;
   void ReportProgress() const;  // with mutex_ held
 
-  const CorrectFlow& flow_;
+  CorrectFlow& flow_;
   const CorrectRunConfig config_;
   base::RunContext context_;
   absl::Time start_;
@@ -80,11 +87,17 @@ class CorrectRun {
   CorrectState state_;
   std::vector<Unit> units_;  // in the order in which they are begun
   size_t next_unit_ = 0;
+  size_t end_unit_ = 0;  // of the sources that are worked on
   int64_t variants_waiting_ = 0;
   int64_t total_ = 0;
   int64_t step_ = 0;
-  int64_t first_step_ = 0;                     // of this attempt
-  std::map<int64_t, base::Progress> running_;  // by ordinal
+  int64_t first_step_ = 0;  // of this attempt
+  struct Running {
+    int64_t samples = 0;
+    base::Progress progress;
+  };
+  std::map<int64_t, Running> running_;      // variants by ordinal
+  std::optional<base::Progress> learning_;  // of the policy that is learned
   Status status_;
 };
 

@@ -4,10 +4,12 @@
 
 #include <atomic>
 #include <string>
+#include <tuple>
 
 #include "absl/time/clock.h"
 #include "core/motion/io/clip_file.h"
 #include "core/pipeline/correct_run.h"
+#include "core/pipeline/correct_settings.h"
 
 namespace poise::pipeline {
 namespace {
@@ -47,7 +49,7 @@ struct Outcome {
   bool operator==(const Outcome&) const = default;
 };
 
-StatusOr<Outcome> RunAll(const CorrectFlow& flow, CorrectRunConfig config = {},
+StatusOr<Outcome> RunAll(CorrectFlow& flow, CorrectRunConfig config = {},
                          const base::RunContext& context = {}) {
   CorrectRun run(flow, std::move(config), CorrectState::Empty(flow));
   POISE_RETURN_IF_ERROR(run.Run(context));
@@ -90,7 +92,7 @@ TEST(CorrectTest, FastTriesAsOftenAsItIsTold) {
   spec.effort = "fast";
   spec.overrides = {{"learning.rollouts", "4"}};
   const auto flow = Flow(spec);
-  EXPECT_EQ(flow->rollouts(), 4);
+  EXPECT_EQ(flow->samples_per_variant(0), 4 * flow->frames(0));
   const auto corrected = flow->Correct(0, {});
   ASSERT_TRUE(corrected.ok()) << corrected.status();
   EXPECT_EQ(corrected->curve.size(), 4u);
@@ -186,12 +188,12 @@ TEST(CorrectTest, CancelledInTheMiddleItGoesOnWhereItWas) {
                         [&](const CorrectState& state, int64_t step) {
                           kept = state;
                           kept_step = step;
-                          if (step > 4) context.cancellation.Cancel();
+                          if (step > 4 * flow->frames(0)) context.cancellation.Cancel();
                           return absl::OkStatus();
                         }},
                    CorrectState::Empty(*flow));
   EXPECT_TRUE(absl::IsCancelled(first.Run(context)));
-  EXPECT_LT(kept_step, 13);
+  EXPECT_LT(kept_step, 13 * flow->frames(0));
   std::vector<base::Progress> progress;
   base::RunContext again;
   again.progress = [&](const base::Progress& value) { progress.push_back(value); };
@@ -202,6 +204,79 @@ TEST(CorrectTest, CancelledInTheMiddleItGoesOnWhereItWas) {
   EXPECT_GT(progress.back().metrics.at("samples"), 0);
   EXPECT_GT(progress.back().metrics.at("force"), 0);
   EXPECT_EQ(api::ToJson(second.Report(0)).dump(), undisturbed->reports);
+}
+
+// A policy that learns for a moment only.
+api::CorrectSpec LearningSpec() {
+  api::CorrectSpec spec = Spec("ik", 2);
+  spec.effort = "full";
+  spec.overrides = {{"learning.rollouts", "2"},
+                    {"imitation.held_out", "1"},
+                    {"imitation.max_samples", "600"},
+                    {"imitation.environments", "2"},
+                    {"imitation.ppo.samples_per_update", "200"},
+                    {"imitation.evaluate_every", "1"}};
+  return spec;
+}
+
+TEST(CorrectTest, FullLearnsAPolicyFirst) {
+  const auto flow = Flow(LearningSpec());
+  CorrectRun run(*flow, {.threads = 2}, CorrectState::Empty(*flow));
+  std::vector<base::Progress> progress;
+  base::RunContext context;
+  context.progress = [&](const base::Progress& value) { progress.push_back(value); };
+  const Status status = run.Run(context);
+  ASSERT_TRUE(status.ok()) << status;
+  const api::CorrectedClipReport report = run.Report(0);
+  EXPECT_EQ(report.stopped_by, "max_samples");
+  EXPECT_GE(report.reward_curve.back().samples, 600);
+  EXPECT_GT(report.samples, report.reward_curve.back().samples);
+  ASSERT_EQ(report.variants.size(), 2u);
+  for (const auto& variant : report.variants) {
+    EXPECT_TRUE(variant.completed);
+    EXPECT_TRUE(variant.effort == "fast" || variant.effort == "full") << variant.effort;
+  }
+  EXPECT_EQ(progress.back().step, progress.back().total);
+  for (size_t i = 1; i < progress.size(); ++i) {
+    EXPECT_GE(progress[i].metrics.at("samples"), progress[i - 1].metrics.at("samples") * 0.5);
+  }
+}
+
+TEST(CorrectTest, LearningThatWasCutOffEndsWithTheSamePolicy) {
+  const auto undisturbed = RunAll(*Flow(LearningSpec()), {.threads = 2});
+  ASSERT_TRUE(undisturbed.ok()) << undisturbed.status();
+  const auto flow = Flow(LearningSpec());
+  base::RunContext context;
+  CorrectState kept = CorrectState::Empty(*flow);
+  CorrectRun first(*flow,
+                   {.threads = 2,
+                    .on_done =
+                        [&](const CorrectState& state, int64_t) {
+                          kept = state;
+                          context.cancellation.Cancel();
+                          return absl::OkStatus();
+                        }},
+                   CorrectState::Empty(*flow));
+  EXPECT_TRUE(absl::IsCancelled(first.Run(context)));
+  ASSERT_FALSE(kept.policies[0].checkpoint.empty());
+  ASSERT_FALSE(kept.policies[0].finished);
+  const auto again = Flow(LearningSpec());
+  CorrectRun second(*again, {.threads = 1}, kept);
+  ASSERT_TRUE(second.Run({}).ok());
+  EXPECT_EQ(api::ToJson(second.Report(0)).dump(), undisturbed->reports);
+}
+
+TEST(CorrectTest, TheResidualSaysWhoHoldsThePelvis) {
+  api::CorrectSpec spec = LearningSpec();
+  for (const auto& [residual, wrench, factor] :
+       {std::tuple("pd", "pd_scaled", 2.0), std::tuple("none", "none", 0.0),
+        std::tuple("rfc", "rfc", 0.0), std::tuple("pd_rfc", "pd_rfc", 2.0)}) {
+    spec.residual = residual;
+    const auto settings = CorrectSettings::From(spec);
+    ASSERT_TRUE(settings.ok()) << settings.status();
+    EXPECT_EQ(settings->imitation.residual, wrench);
+    EXPECT_EQ(settings->correction.tracking.residual_factor, factor);
+  }
 }
 
 TEST(CorrectTest, WhatCannotWorkIsRefusedWithItsField) {
@@ -222,8 +297,8 @@ TEST(CorrectTest, WhatCannotWorkIsRefusedWithItsField) {
   EXPECT_EQ(field(spec), "UNKNOWN_CONFIG_KEY noise.sigma") << "noise is not in the method";
   EXPECT_EQ(field(Spec("iq", 2)).substr(0, 14), "UNKNOWN_METHOD");
   spec = Spec("ik", 2);
-  spec.effort = "full";
-  EXPECT_EQ(field(spec), "EFFORT_NOT_AVAILABLE effort");
+  spec.overrides = {{"imitation.ppo.epoch", "2"}};
+  EXPECT_EQ(field(spec), "UNKNOWN_CONFIG_KEY imitation.ppo.epoch");
 }
 
 }  // namespace

@@ -147,7 +147,7 @@ std::string Remarks(const CorrectedClip& clip) {
                                 clip.name, variant.index, 100 * variant.after->score.completion,
                                 variant.file);
   }
-  if (clip.report->stopped_by != "finished") {
+  if (clip.report->stopped_by == "max_seconds") {
     text += fmt::format("\n{}: stopped by {}; this is the best until then", clip.name,
                         clip.report->stopped_by);
   }

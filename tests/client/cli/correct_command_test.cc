@@ -138,6 +138,19 @@ TEST_F(CorrectCommandTest, DetachedItIsAJobLikeAnyOther) {
   EXPECT_EQ(again.JsonLines()[0]["state"], "SUCCEEDED");
 }
 
+TEST_F(CorrectCommandTest, FullLearnsAPolicyFirst) {
+  const PoiseRun run =
+      Poise({"correct", Sample("kick"), "-n", "2", "--effort", "full", "--residual", "pd_rfc",
+             "--set", "learning.rollouts=2", "--set", "imitation.max_samples=4000", "--set",
+             "imitation.held_out=1", "--out", Path("full"), "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  const base::Json line = run.JsonLines()[0];
+  EXPECT_EQ(line["stopped_by"], "max_samples");
+  EXPECT_GE(line["samples"], 4000);
+  EXPECT_GE(line["reward_curve"].size(), 2u);
+  for (const base::Json& variant : line["variants"]) EXPECT_TRUE(variant["completed"].get<bool>());
+}
+
 TEST_F(CorrectCommandTest, TimeThatIsUpIsSaid) {
   const PoiseRun run =
       Poise({"correct", Sample("kick"), "-n", "2", "--set", "learning.rollouts=1000",
@@ -178,7 +191,6 @@ TEST_F(CorrectCommandTest, MistakesExitWithTwoAndNameTheField) {
   EXPECT_EQ(error({"--set", "learning.rolouts=3"}, 2)["field"], "spec.parameters.learning.rolouts");
   EXPECT_EQ(error({"--method", "none", "-n", "3"}, 2)["reason"], "BAD_VARIANT_COUNT");
   EXPECT_EQ(error({"--residual", "rfc"}, 2)["reason"], "RESIDUAL_NEEDS_LEARNING");
-  EXPECT_EQ(error({"--effort", "full"}, 4)["reason"], "EFFORT_NOT_AVAILABLE");
   EXPECT_EQ(Poise({"correct", Path("none.bvh")}).exit_code, 3);
 }
 

@@ -211,7 +211,8 @@ Status CorrectRun::Count(int64_t steps) {
   step_ += steps;
   state_.seconds = seconds_before_ + absl::ToDoubleSeconds(absl::Now() - start_);
   ReportProgress();
-  return config_.on_done ? config_.on_done(state_, step_) : absl::OkStatus();
+  if (!config_.on_done) return absl::OkStatus();
+  return config_.on_done(state_, step_ + (learning_ ? learning_->step : 0));
 }
 
 void CorrectRun::ReportProgress() const {

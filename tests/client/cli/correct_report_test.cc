@@ -60,7 +60,7 @@ TEST(CorrectReportTest, AJobThatFailedHasItsErrorAndNulls) {
 TEST(CorrectReportTest, TheTablesHaveMeansAndTheWorst) {
   const std::string text = CorrectionText({Clip()});
   EXPECT_THAT(text, HasSubstr("kick, 2 variants before"));
-  EXPECT_THAT(text, HasSubstr("2/2    0.800     0.100")) << "means of reward and force";
+  EXPECT_THAT(text, HasSubstr("2/2   0.800     0.100")) << "means of reward and force";
   EXPECT_THAT(text, HasSubstr("0.700     0.150")) << "the worst of each";
   EXPECT_THAT(text, Not(HasSubstr("not completed")));
 }

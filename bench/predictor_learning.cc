@@ -1,0 +1,155 @@
+// Trains the recommended predictor on a published benchmark and tests it beside the floors:
+//
+//   predictor_learning --data DIR/cmu --protocol seeded75 all --seeds 3 --out r.csv
+//   predictor_learning --data DIR/hdm05 --class kickLFront1Reps --left-out tr --protocol loso
+//
+// The results file has the columns of `poise evaluate`. Progress goes to standard error.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "CLI/CLI.hpp"
+#include "core/pipeline/evaluate_predictor.h"
+#include "core/prediction/mixer/mixer_predictor.h"
+#include "core/prediction/predictor_registry.h"
+#include "core/prediction/training/train_mixer.h"
+
+namespace poise {
+namespace {
+
+struct Options {
+  std::string data;
+  std::string action_class;  // of HDM05; empty: CMU
+  std::string left_out;
+  std::vector<std::string> protocols = {"seeded75"};
+  int seeds = 1;
+  uint64_t first_seed = 1;
+  std::vector<std::string> assignments;
+  std::string out;
+  std::string save;  // prefix of the weights' files
+};
+
+StatusOr<motion::BenchmarkClips> LoadClips(const Options& options) {
+  if (options.action_class.empty()) return motion::LoadCmuBenchmark(options.data);
+  return motion::LoadHdm05Benchmark(options.data, options.action_class, options.left_out);
+}
+
+StatusOr<prediction::MixerTraining> Training(const Options& options) {
+  prediction::MixerTraining config;
+  base::Overrides overrides;
+  for (const std::string& assignment : options.assignments) {
+    const size_t equals = assignment.find('=');
+    overrides[assignment.substr(0, equals)] =
+        equals == std::string::npos ? "" : assignment.substr(equals + 1);
+  }
+  POISE_RETURN_IF_ERROR(base::ApplyOverrides(overrides, config.Fields()));
+  POISE_RETURN_IF_ERROR(config.Validate());
+  return config;
+}
+
+/// Rows of the results file, and a table for people.
+class Results {
+ public:
+  explicit Results(const motion::BenchmarkClips& clips) : clips_(clips) {}
+
+  Status Test(const prediction::Predictor& predictor, const pipeline::ScoreLabels& labels,
+              const std::vector<std::string>& protocols) {
+    for (const std::string& name : protocols) {
+      POISE_ASSIGN_OR_RETURN(const motion::EvaluationProtocol protocol, motion::FindProtocol(name));
+      POISE_ASSIGN_OR_RETURN(const pipeline::PredictorScores scores,
+                             pipeline::EvaluatePredictor(predictor, clips_, protocol, {}));
+      rows_ +=
+          pipeline::ScoresCsvRows(scores, labels, protocol, clips_.test.front().clip.frame_rate());
+      std::printf("%-18s %-9s seed %d  mean", labels.model.c_str(), name.c_str(),
+                  static_cast<int>(labels.seed));
+      for (const int frame : protocol.frames) {
+        if (frame < static_cast<int>(scores.mean.size())) {
+          std::printf("  f%d %.3f", frame, scores.mean[frame]);
+        }
+      }
+      std::printf("\n");
+      std::fflush(stdout);
+    }
+    return absl::OkStatus();
+  }
+
+  Status Write(const std::string& path) const {
+    if (path.empty()) return absl::OkStatus();
+    std::ofstream(path) << pipeline::ScoresCsvHeader() << rows_;
+    return absl::OkStatus();
+  }
+
+ private:
+  const motion::BenchmarkClips& clips_;
+  std::string rows_;
+};
+
+void PrintProgress(const base::Progress& progress) {
+  const auto metric = [&](const char* name) {
+    const auto found = progress.metrics.find(name);
+    return found == progress.metrics.end() ? 0.0 : found->second;
+  };
+  std::fprintf(stderr, "\rstep %ld of %ld  loss %.4f  validation %.4f  best %.4f  eta %.0f s   ",
+               static_cast<long>(progress.step), static_cast<long>(progress.total),
+               metric("mixer.loss"), metric("validation"), metric("best_validation"),
+               metric("eta_s"));
+}
+
+Status LearnAndTest(const Options& options, const motion::BenchmarkClips& clips, uint64_t seed,
+                    Results& results) {
+  POISE_ASSIGN_OR_RETURN(prediction::MixerTraining config, Training(options));
+  base::RunContext context;
+  context.seed = seed;
+  context.progress = PrintProgress;
+  POISE_ASSIGN_OR_RETURN(const prediction::TrainedMixer trained,
+                         prediction::TrainMixer(clips, config, context));
+  std::fprintf(stderr, "\n");
+  std::printf("trained %ld steps in %.0f s, best after %ld: validation %.4f\n",
+              static_cast<long>(trained.steps), trained.seconds,
+              static_cast<long>(trained.best_step), trained.best_validation);
+  if (!options.save.empty()) {
+    std::ofstream(fmt::format("{}_{}.safetensors", options.save, seed), std::ios::binary)
+        << base::EncodeTensors(trained.weights);
+    std::ofstream(fmt::format("{}_{}_curve.csv", options.save, seed)) << trained.curve_csv;
+  }
+  POISE_ASSIGN_OR_RETURN(const auto predictor, prediction::MixerPredictor::Create(
+                                                   config.mixer, trained.body, trained.weights));
+  return results.Test(*predictor, {"mixer", "recommended", seed}, options.protocols);
+}
+
+Status Run(const Options& options) {
+  POISE_ASSIGN_OR_RETURN(const motion::BenchmarkClips clips, LoadClips(options));
+  Results results(clips);
+  for (const std::string& name : prediction::BuiltInPredictorNames()) {
+    POISE_RETURN_IF_ERROR(results.Test(*prediction::FindBuiltInPredictor(name),
+                                       {name + "@1", "", 0}, options.protocols));
+  }
+  for (int i = 0; i < options.seeds; ++i) {
+    POISE_RETURN_IF_ERROR(LearnAndTest(options, clips, options.first_seed + i, results));
+    POISE_RETURN_IF_ERROR(results.Write(options.out));
+  }
+  return results.Write(options.out);
+}
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) {
+  poise::Options options;
+  CLI::App app("Trains the recommended predictor and tests it beside the floors.");
+  app.add_option("--data", options.data, "Folder of the benchmark")->required();
+  app.add_option("--class", options.action_class, "HDM05 class; CMU without it");
+  app.add_option("--left-out", options.left_out, "HDM05 actor that is the test");
+  app.add_option("--protocol", options.protocols, "seeded60, seeded75, all, loso");
+  app.add_option("--seeds", options.seeds, "Trainings; 0: the floors alone");
+  app.add_option("--first-seed", options.first_seed);
+  app.add_option("--set", options.assignments, "KEY=VALUE of the training; repeatable");
+  app.add_option("--out", options.out, "Results file (CSV)");
+  app.add_option("--save", options.save, "Prefix for weights and learning curves");
+  CLI11_PARSE(app, argc, argv);
+  const poise::Status status = poise::Run(options);
+  if (status.ok()) return 0;
+  std::fprintf(stderr, "error: %s\n", poise::base::Message(status).c_str());
+  return 1;
+}

@@ -1,0 +1,44 @@
+#include "core/prediction/tensors/pose_windows.h"
+
+namespace poise::prediction {
+
+PoseTensors ToTensors(const motion::Clip& clip) {
+  const int64_t frames = clip.num_frames(), joints = clip.num_joints();
+  PoseTensors poses{torch::empty({1, frames, joints, 4}), torch::empty({1, frames, 3})};
+  float* rotation = poses.rotations.data_ptr<float>();
+  for (const motion::Quat& q : clip.rotations()) {
+    for (const double value : {q.w(), q.x(), q.y(), q.z()}) *rotation++ = static_cast<float>(value);
+  }
+  float* position = poses.positions.data_ptr<float>();
+  for (const motion::Vec3& p : clip.root_positions()) {
+    for (const double value : p) *position++ = static_cast<float>(value);
+  }
+  return poses;
+}
+
+void PoseWindows::Add(const motion::Clip& clip, std::span<const int> starts) {
+  const PoseTensors poses = ToTensors(clip);
+  rotations_.push_back(poses.rotations[0]);
+  positions_.push_back(poses.positions[0]);
+  for (const int start : starts) starts_.push_back(frames_ + start);
+  frames_ += clip.num_frames();
+  all_rotations_ = torch::Tensor();
+}
+
+PoseTensors PoseWindows::Gather(std::span<const int64_t> windows) const {
+  if (!all_rotations_.defined()) {
+    all_rotations_ = torch::cat(rotations_);
+    all_positions_ = torch::cat(positions_);
+  }
+  const auto count = static_cast<int64_t>(windows.size());
+  torch::Tensor frames = torch::empty({count, window_}, torch::kInt64);
+  auto frame = frames.accessor<int64_t, 2>();
+  for (int64_t i = 0; i < count; ++i) {
+    for (int64_t t = 0; t < window_; ++t) frame[i][t] = starts_[windows[i]] + t;
+  }
+  const torch::Tensor flat = frames.flatten();
+  return {all_rotations_.index_select(0, flat).view({count, window_, -1, 4}),
+          all_positions_.index_select(0, flat).view({count, window_, 3})};
+}
+
+}  // namespace poise::prediction

@@ -1,0 +1,45 @@
+#ifndef POISE_CORE_PREDICTION_TENSORS_POSE_WINDOWS_H_
+#define POISE_CORE_PREDICTION_TENSORS_POSE_WINDOWS_H_
+
+#include <torch/torch.h>
+
+#include <span>
+#include <vector>
+
+#include "core/motion/clip.h"
+
+namespace poise::prediction {
+
+/// Poses as tensors, single precision.
+/// Shapes: rotations (batch, frames, joints, 4) w x y z; positions (batch, frames, 3) [m]
+struct PoseTensors {
+  torch::Tensor rotations;
+  torch::Tensor positions;
+};
+
+PoseTensors ToTensors(const motion::Clip& clip);
+
+/// Windows of one length cut out of clips, gathered into batches for training.
+class PoseWindows {
+ public:
+  explicit PoseWindows(int window) : window_(window) {}
+
+  /// Adds the windows that begin at `starts` of the clip. Precondition: they lie inside; all clips
+  /// have equally many joints.
+  void Add(const motion::Clip& clip, std::span<const int> starts);
+
+  int64_t size() const { return static_cast<int64_t>(starts_.size()); }
+  PoseTensors Gather(std::span<const int64_t> windows) const;
+
+ private:
+  int window_;
+  int64_t frames_ = 0;
+  std::vector<torch::Tensor> rotations_;  // a clip each: (frames, joints, 4)
+  std::vector<torch::Tensor> positions_;
+  std::vector<int64_t> starts_;  // among all frames
+  mutable torch::Tensor all_rotations_, all_positions_;
+};
+
+}  // namespace poise::prediction
+
+#endif  // POISE_CORE_PREDICTION_TENSORS_POSE_WINDOWS_H_

@@ -1,0 +1,147 @@
+#include "core/prediction/training/train_mixer.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/base/random.h"
+#include "core/learning/nn/guard.h"
+#include "core/learning/nn/module_state.h"
+#include "core/learning/nn/trainer.h"
+#include "core/motion/dataset/windows.h"
+#include "core/prediction/mixer/mixer_net.h"
+#include "core/prediction/training/training_clips.h"
+
+namespace poise::prediction {
+namespace {
+
+constexpr size_t kFitWindows = 2000;  // from which scales are taken
+constexpr int kValidationStep = 5;    // [frames] between the windows that weights are chosen by
+constexpr size_t kValidationBatch = 256;
+enum Stream : uint64_t { kFit = 1 };  // random streams beside the trainer's
+
+EulerMeasure MeasureOf(const motion::BenchmarkClips& clips, const NetworkBody& body) {
+  std::vector<float> counts;
+  for (const int joint : body.joints) {
+    for (int axis = 0; axis < 3; ++axis) counts.push_back(clips.counts[3 * joint + axis] ? 1 : 0);
+  }
+  return {.row_vectors = clips.sense == motion::RotationSense::kRowVectors,
+          .moving_only = clips.variant == motion::EulerErrorVariant::kMovingColumns,
+          .counts = torch::tensor(counts)};
+}
+
+std::vector<int> Starts(const motion::Clip& clip, int window, int step) {
+  std::vector<int> starts;
+  for (const int start : motion::AllStarts(clip.num_frames(), window)) {
+    if (start % step == 0) starts.push_back(start);
+  }
+  return starts;
+}
+
+/// Windows to learn from: every sequence is drawn as often as any other, however long it is (of CMU
+/// two of eight actions have two thirds of the frames), then one of its variants, then a window.
+class BalancedWindows {
+ public:
+  BalancedWindows(const TrainingClips& clips, int window) : windows_(window) {
+    for (const std::vector<motion::Clip>& variants : clips.train) {
+      std::vector<Range>& ranges = sequences_.emplace_back();
+      for (const motion::Clip& clip : variants) {
+        const int64_t first = windows_.size();
+        windows_.Add(clip, Starts(clip, window, 1));
+        ranges.push_back({first, windows_.size() - first});
+      }
+    }
+  }
+
+  int64_t size() const { return windows_.size(); }
+  PoseTensors Draw(size_t count, base::Random& random) const {
+    std::vector<int64_t> chosen(count);
+    for (int64_t& window : chosen) {
+      const std::vector<Range>& ranges = sequences_[random.Index(sequences_.size())];
+      const Range& range = ranges[random.Index(ranges.size())];
+      window = range.first + static_cast<int64_t>(random.Index(range.count));
+    }
+    return windows_.Gather(chosen);
+  }
+
+ private:
+  struct Range {
+    int64_t first, count;
+  };
+  PoseWindows windows_;
+  std::vector<std::vector<Range>> sequences_;
+};
+
+// Mean Euler error over windows and frames.
+double ValidationError(MixerNet& net, const PoseWindows& windows, const EulerMeasure& measure,
+                       const NetworkBody& body) {
+  const torch::Tensor joints =
+      torch::tensor(std::vector<int64_t>(body.joints.begin(), body.joints.end()));
+  std::vector<int64_t> all(windows.size());
+  std::iota(all.begin(), all.end(), 0);
+  double sum = 0;
+  for (size_t first = 0; first < all.size(); first += kValidationBatch) {
+    const PoseTensors batch = windows.Gather(
+        std::span(all).subspan(first, std::min(kValidationBatch, all.size() - first)));
+    sum += measure
+               .Errors(net.Predict(batch).rotations.index_select(2, joints),
+                       batch.rotations.slice(1, net.past_frames()).index_select(2, joints))
+               .mean(1)
+               .sum()
+               .item<double>();
+  }
+  return sum / static_cast<double>(all.size());
+}
+
+}  // namespace
+
+StatusOr<TrainedMixer> TrainMixer(const motion::BenchmarkClips& clips, MixerTraining config,
+                                  const base::RunContext& context) {
+  POISE_RETURN_IF_ERROR(config.Validate());
+  const int window = config.mixer.past_frames + config.mixer.future_frames;
+  POISE_ASSIGN_OR_RETURN(
+      const TrainingClips split,
+      SplitForTraining(clips,
+                       {.window = window,
+                        .validation_share = config.validation_share,
+                        .mirror = config.mirror,
+                        .speeds = config.speeds,
+                        .drop_first_frame = clips.sense == motion::RotationSense::kRowVectors}));
+  TrainedMixer trained{.body = NetworkBody::Of(clips), .weights = {}, .curve_csv = ""};
+  const EulerMeasure measure = MeasureOf(clips, trained.body);
+  const BalancedWindows train(split, window);
+  PoseWindows validation(window);
+  for (const motion::Clip& clip : split.validation) {
+    validation.Add(clip, Starts(clip, window, kValidationStep));
+  }
+
+  learning::SeedTorch(context.seed);
+  auto net = std::make_shared<MixerNet>(config.mixer, trained.body, measure);
+  POISE_RETURN_IF_ERROR(learning::GuardStatus("scales", [&] {
+    base::Random random(base::DeriveSeed(context.seed, {kFit}));
+    net->Fit(train.Draw(kFitWindows, random));
+    return absl::OkStatus();
+  }));
+  learning::TrainingSetup setup{.num_samples = train.size(), .seed = context.seed};
+  setup.networks.push_back(
+      {"mixer", net, config.optimizer,
+       [&](const learning::Batch& batch) -> StatusOr<learning::Loss> {
+         return learning::Loss{.total = net->Loss(train.Draw(batch.samples.size(), batch.random))};
+       }});
+  if (validation.size() > 0) {
+    setup.validate = [&]() -> StatusOr<double> {
+      return ValidationError(*net, validation, measure, trained.body);
+    };
+  }
+  POISE_ASSIGN_OR_RETURN(const auto trainer,
+                         learning::Trainer::Create(std::move(setup), config.trainer));
+  POISE_ASSIGN_OR_RETURN(const learning::TrainingReport report, trainer->Run(context));
+  trained.steps = report.steps;
+  trained.best_step = report.best_step;
+  trained.best_validation = report.best_step < 0 ? 0 : report.best_validation;
+  trained.seconds = report.seconds;
+  trained.curve_csv = trainer->curve().ToCsv();
+  POISE_RETURN_IF_ERROR(learning::AppendState(*net, "", trained.weights));
+  return trained;
+}
+
+}  // namespace poise::prediction

@@ -1,0 +1,35 @@
+#ifndef POISE_CORE_PREDICTION_TRAINING_TRAINING_CONFIG_H_
+#define POISE_CORE_PREDICTION_TRAINING_TRAINING_CONFIG_H_
+
+#include <string_view>
+#include <vector>
+
+#include "core/base/config_fields.h"
+#include "core/learning/nn/trainer_config.h"
+#include "core/prediction/mixer/mixer_config.h"
+
+namespace poise::prediction {
+
+/// Everything that decides what a mixer becomes, but for data and seed. The defaults are the preset
+/// `recommended`.
+struct MixerTraining {
+  MixerConfig mixer;
+  learning::TrainerConfig trainer{.steps = 5000, .batch_size = 64, .validate_every = 500};
+  learning::OptimizerConfig optimizer{.type = "adamw",
+                                      .learning_rate = 1e-3,
+                                      .weight_decay = 1e-4,
+                                      .warmup_steps = 100,
+                                      .schedule = "cosine",
+                                      .clip_norm = 1};
+  /// [0 to 0.5] of each long training sequence, at its end, that is held out to choose the weights.
+  double validation_share = 0.1;
+  bool mirror = true;  ///< learn from the mirror image of each sequence too
+  bool speeds = true;  ///< and from each slower and faster by up to a fifth
+
+  std::vector<base::Field> Fields();
+  Status Validate();
+};
+
+}  // namespace poise::prediction
+
+#endif  // POISE_CORE_PREDICTION_TRAINING_TRAINING_CONFIG_H_

@@ -7,6 +7,7 @@
 
 #include "absl/time/clock.h"
 #include "tests/support/raw_call.h"
+#include "tests/support/sanitizer.h"
 #include "tests/support/server_process.h"
 #include "tests/support/test_server.h"
 
@@ -54,7 +55,7 @@ TEST(StalledReadersTest, HundredClientsThatStopReadingCostAFixedAmountOfMemoryAn
       "5 s: %.0f ms\n",
       idle, filled, later, (cpu_later - cpu) * 1e3);
   EXPECT_LT(later, filled + 4);
-  EXPECT_LT(filled - idle, 2.5 * kClients);
+  if (!testing::kInstrumented) EXPECT_LT(filled - idle, 2.5 * kClients);
   EXPECT_LT(cpu_later - cpu, 0.5);
   EXPECT_EQ(testing::HealthOf(server.NewChannel(), ""), "SERVING");
   grpc::Status status;

@@ -3,6 +3,7 @@
 
 #include "absl/time/clock.h"
 #include "tests/integration/worker_fixture.h"
+#include "tests/support/sanitizer.h"
 
 namespace poise::worker {
 namespace {
@@ -67,7 +68,7 @@ TEST_F(WorkerDrainTest, WorkerWithoutAServerLeavesToo) {
   worker->process.Signal(SIGTERM);
   EXPECT_EQ(worker->process.Wait(), 0);
   testing::Process never({POISE_WORKER_PROGRAM, "--server", address_});
-  absl::SleepFor(absl::Milliseconds(300));
+  absl::SleepFor(absl::Seconds(testing::kInstrumented ? 4 : 1));  // until it tries to connect
   never.Signal(SIGTERM);
   EXPECT_EQ(never.Wait(), 0);
 }

@@ -5,6 +5,7 @@
 #include "core/base/version.h"
 #include "tests/client/cli/poise_program.h"
 #include "tests/support/process.h"
+#include "tests/support/sanitizer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace poise::testing {
@@ -59,6 +60,7 @@ TEST(UsageTest, AFlagGivenTwiceTakesTheLastValue) {
 }
 
 TEST(UsageTest, HelpComesFast) {
+  if (testing::kInstrumented) GTEST_SKIP() << "an instrumented program is slow";
   double best = 1;
   for (int attempt = 0; attempt < 10; ++attempt) {
     const absl::Time start = absl::Now();

@@ -155,9 +155,9 @@ Mean Corrected(const ImitationLearner& learner, const std::vector<motion::Clip>&
   Mean mean;
   mean.seconds = Time([&] {
     for (const motion::Clip& clip : clips) {
-      const Correction correction = Must(learner.Correct(clip));
-      mean.Add(correction.score);
-      mean.chosen_full += correction.effort == "full";
+      const auto correction = learner.Correct(clip);
+      mean.Add(correction.ok() ? correction->score : TrackingScore());
+      mean.chosen_full += correction.ok() && correction->effort == "full";
     }
   });
   return mean;

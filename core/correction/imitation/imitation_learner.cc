@@ -220,19 +220,22 @@ StatusOr<Correction> ImitationLearner::Correct(const motion::Clip& variant,
   POISE_ASSIGN_OR_RETURN(const ReferenceMotion reference, corrector.Reference(variant));
   POISE_ASSIGN_OR_RETURN(MotionTracker tracker, corrector.Tracker(reference.frame_rate()));
   const LearningConfig& learning = corrector.config().learning;
-  POISE_ASSIGN_OR_RETURN(Learned fast, LearnIteratively(tracker, reference, learning, context));
+  auto fast = LearnIteratively(tracker, reference, learning, context);
+  if (!fast.ok() && !absl::IsOutOfRange(fast.status())) return fast.status();
   auto full = LearnIteratively(
       tracker, reference, learning, context,
       PolicyCommander(state_->spaces, state_->config, reference, state_->best_policy));
   if (absl::IsCancelled(full.status())) return full.status();
-  const bool better =
-      full.ok() && Merit(full->best.score, state_->config) > Merit(fast.best.score, state_->config);
-  POISE_ASSIGN_OR_RETURN(Correction correction,
-                         corrector.Assess(variant, reference, better ? full->best : fast.best));
+  // What diverged is no candidate; where both did, the error is fast's.
+  if (!fast.ok() && !full.ok()) return fast.status();
+  const bool better = full.ok() && (!fast.ok() || Merit(full->best.score, state_->config) >
+                                                      Merit(fast->best.score, state_->config));
+  const bool late = absl::IsDeadlineExceeded(full.status());
+  Learned learned = better ? *std::move(full) : *std::move(fast);
+  POISE_ASSIGN_OR_RETURN(Correction correction, corrector.Assess(variant, reference, learned.best));
   correction.effort = better ? "full" : "fast";
-  correction.rollouts = better ? std::move(full->scores) : std::move(fast.scores);
-  correction.timed_out =
-      fast.timed_out || absl::IsDeadlineExceeded(full.status()) || (full.ok() && full->timed_out);
+  correction.rollouts = std::move(learned.scores);
+  correction.timed_out = learned.timed_out || late;
   return correction;
 }
 

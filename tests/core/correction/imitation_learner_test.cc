@@ -158,7 +158,8 @@ TEST(ImitationLearnerTest, NoCorrectionIsWorseThanThatOfFast) {
     const Correction fast = *corrector.Correct(variant), full = *learner.Correct(variant);
     EXPECT_GE(Merit(full.score, Small()), Merit(fast.score, Small()));
     EXPECT_TRUE(full.effort == "full" || full.effort == "fast");
-    if (full.effort == "fast") EXPECT_EQ(full.score.reward_total, fast.score.reward_total);
+    if (full.effort == "full") continue;
+    EXPECT_EQ(full.score.reward_total, fast.score.reward_total);
   }
 }
 

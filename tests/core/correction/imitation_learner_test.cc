@@ -173,12 +173,12 @@ TEST(ImitationLearnerTest, RefusesCheckpointsThatAreNotItsOwn) {
   EXPECT_TRUE(learner.Restore(checkpoint).ok());
 }
 
-TEST(ImitationLearnerTest, AFewSecondsOfLearningLowerTheForceOnUnseenKicks) {
-  const std::string file = "hdm05/kickLFront1Reps/HDM_bd_kickLFront1Reps_002_120.amc";
+TEST(ImitationLearnerTest, AFewSecondsOfLearningLowerTheForceOnUnseenVariants) {
+  const std::string file = "hdm05/depositFloorR/HDM_bd_depositFloorR_001_120.amc";
   POISE_REQUIRE_DATA(file);
   const motion::Clip clip = motion::ReadClipFile(testing::DataPath(file))->clip;
   const motion::JointRoles roles = RolesOf(clip);
-  const auto steps = *synthesis::CreateMethod("ik", {.action_class = "kick"});
+  const auto steps = *synthesis::CreateMethod("ik", {.action_class = "deposit"});
   const synthesis::Draft source{clip, std::nullopt};
   const auto bound = *steps.front().synthesizer->Bind(source, roles);
   const Corrector corrector = *Corrector::Create(clip, roles);
@@ -196,8 +196,8 @@ TEST(ImitationLearnerTest, AFewSecondsOfLearningLowerTheForceOnUnseenKicks) {
   const TrainingReport report = *learner.Train();
   const PolicyScore &before = report.curve.front(), &best = report.curve[report.best];
   EXPECT_GE(best.completed, before.completed);
-  EXPECT_GT(best.merit, before.merit + 0.01);
-  EXPECT_LT(best.residual_force_mean_bw, 0.9 * before.residual_force_mean_bw);
+  EXPECT_GT(best.merit, before.merit + 0.03);
+  EXPECT_LT(best.residual_force_mean_bw, 0.6 * before.residual_force_mean_bw);
 }
 
 }  // namespace

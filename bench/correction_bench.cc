@@ -9,10 +9,12 @@
 #include "bench/benchmark.h"
 #include "core/correction/corrector.h"
 #include "core/motion/io/clip_file.h"
+#include "tests/support/broken_clips.h"
 
 /// What the efforts `instant` and `fast` reach on real clips (HDM05 below POISE_DATA_DIR), beside
 /// the zero policy of the paper. The controller's constants were chosen on actors bd and bk; dg, mm
-/// and tr are held out. Nothing is measured where the data is missing.
+/// and tr are held out. And what is left of faults in clips that were broken on purpose. Nothing is
+/// measured where the data is missing.
 namespace poise::bench {
 namespace {
 
@@ -101,12 +103,52 @@ void AddRows(const std::string& name, const std::string& peer, double seconds_al
       seconds_allowed / ours.seconds);
 }
 
+// What the correction of broken clips leaves of a measure.
+void AddBroken(const std::filesystem::path& hdm05, std::vector<Row>& rows) {
+  constexpr const char* kFiles[] = {
+      "kickLFront1Reps/HDM_bd_kickLFront1Reps_001_120.amc",
+      "jogLeftCircle4StepsRstart/HDM_bd_jogLeftCircle4StepsRstart_001_120.amc",
+      "sneak2StepsLStart/HDM_mm_sneak2StepsLStart_011_120.amc",
+      "grabHighR/HDM_dg_grabHighR_011_120.amc",
+      "kickLFront1Reps/HDM_tr_kickLFront1Reps_025_120.amc",
+  };
+  CorrectionConfig config;
+  config.effort = "instant";
+  for (const testing::Fault fault : testing::kFaults) {
+    motion::Plausibility before, after;
+    for (const char* name : kFiles) {
+      const auto file = motion::ReadClipFile(hdm05 / name);
+      if (!file.ok()) return;
+      const motion::JointRoles roles = *motion::JointRoles::Detect(*file->clip.skeleton());
+      const motion::Clip broken = testing::Break(file->clip, roles, fault);
+      const auto correction = Corrector::Create(broken, roles, config)->Correct(broken);
+      if (!correction.ok()) continue;
+      for (const auto& [sum, one] :
+           {std::pair(&before, &correction->before), std::pair(&after, &correction->after)}) {
+        sum->foot_skate_mps += one->foot_skate_mps / 5;
+        sum->penetration_mean_m += one->penetration_mean_m / 5;
+        sum->float_mean_m += one->float_mean_m / 5;
+        sum->self_penetration_max_m += one->self_penetration_max_m / 5;
+      }
+    }
+    const auto add = [&](const char* what, const char* unit, double motion::Plausibility::*value) {
+      rows.push_back({fmt::format("correction/broken/{}/{}", testing::FaultName(fault), what),
+                      1000 * after.*value, unit, "before", before.*value / (after.*value), 1});
+    };
+    add("skating", "mm/s", &motion::Plausibility::foot_skate_mps);
+    add("penetration_mean", "mm", &motion::Plausibility::penetration_mean_m);
+    add("float_mean", "mm", &motion::Plausibility::float_mean_m);
+    add("self_penetration_max", "mm", &motion::Plausibility::self_penetration_max_m);
+  }
+}
+
 }  // namespace
 
 std::vector<Row> RunCorrectionBenchmark() {
   std::vector<Row> rows;
   const char* data = std::getenv("POISE_DATA_DIR");
   if (data == nullptr) return rows;
+  AddBroken(std::filesystem::path(data) / "hdm05", rows);
   const CorrectionConfig paper = *CorrectionConfig::FromPreset("paper");
   const CorrectionConfig fast;
   CorrectionConfig instant;

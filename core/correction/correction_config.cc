@@ -6,6 +6,7 @@ StatusOr<CorrectionConfig> CorrectionConfig::FromPreset(std::string_view preset)
   CorrectionConfig config;
   POISE_ASSIGN_OR_RETURN(config.humanoid, physics::HumanoidConfig::FromPreset(preset));
   POISE_ASSIGN_OR_RETURN(config.world, physics::WorldConfig::FromPreset(preset));
+  POISE_ASSIGN_OR_RETURN(config.reference, ReferenceConfig::FromPreset(preset));
   POISE_ASSIGN_OR_RETURN(config.tracking, TrackingConfig::FromPreset(preset));
   POISE_ASSIGN_OR_RETURN(config.learning, LearningConfig::FromPreset(preset));
   if (preset == "paper") config.effort = "instant";

@@ -35,7 +35,8 @@ StatusOr<MotionTracker> Corrector::Tracker(double frame_rate) const {
 }
 
 StatusOr<motion::Plausibility> Corrector::AssessReference(const ReferenceMotion& reference) const {
-  return motion::AssessPlausibility(reference.clip(), model_->shapes(), /*floor_height_m=*/0);
+  return motion::AssessPlausibility(reference.source_clip(), model_->shapes(),
+                                    /*floor_height_m=*/0);
 }
 
 StatusOr<Correction> Corrector::Assess(const motion::Clip& variant,

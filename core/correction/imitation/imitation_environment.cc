@@ -82,10 +82,10 @@ StatusOr<rl::Transition> ImitationEnvironment::Step(std::span<const float> actio
 double ImitationEnvironment::ImitationReward() const {
   const physics::HumanoidModel& model = corrector_.model();
   const physics::Effort& effort = episode_.world().effort();
-  const Reward reward = ComputeReward(model, corrector_.config().reward,
-                                      ComputeFeatures(model, episode_.world().state()),
-                                      ComputeFeatures(model, reference_->frame(episode_.frame())),
-                                      effort.residual_force, effort.residual_torque);
+  const Reward reward = ComputeReward(
+      model, corrector_.config().reward, ComputeFeatures(model, episode_.world().state()),
+      ComputeFeatures(model, reference_->source_frame(episode_.frame())), effort.residual_force,
+      effort.residual_torque);
   return config_.residual_term ? reward.total : reward.imitation;
 }
 

@@ -132,7 +132,7 @@ StatusOr<Recording> MotionTracker::Track(const ReferenceMotion& reference,
     Record(model.articulation(), world.state(), frame, recording.clip);
     if (!episode_.failed()) {
       const Features simulated = ComputeFeatures(model, world.state());
-      const Features wanted = ComputeFeatures(model, reference.frame(frame));
+      const Features wanted = ComputeFeatures(model, reference.source_frame(frame));
       const physics::Effort& effort = world.effort();
       tally.AddFrame(simulated, wanted,
                      ComputeReward(model, reward_, simulated, wanted, effort.residual_force,

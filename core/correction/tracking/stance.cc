@@ -10,6 +10,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using motion::JointRole;
 
+constexpr double kLeastLoad = 0.02;      // a foot that nobody plans to load still can carry
 constexpr double kTouching = 0.002;      // [m] a point this near carries
 constexpr double kForceSoftness = 1e-3;  // of the force against one point's, for a regular matrix
 
@@ -33,17 +34,19 @@ void Distribute(const Vec3& at, const Vector6& wrench, double moment_softness,
   for (int i = 0; i < stances.count; ++i) {
     if (left_out[i]) continue;
     const math::Mat3 arm = Cross(stances.points[i].point - at);
-    normal.topLeftCorner<3, 3>() += math::Mat3::Identity();
-    normal.topRightCorner<3, 3>() += arm.transpose();
-    normal.bottomLeftCorner<3, 3>() += arm;
-    normal.bottomRightCorner<3, 3>() += arm * arm.transpose();
+    const double load = stances.points[i].load;
+    normal.topLeftCorner<3, 3>() += load * math::Mat3::Identity();
+    normal.topRightCorner<3, 3>() += load * arm.transpose();
+    normal.bottomLeftCorner<3, 3>() += load * arm;
+    normal.bottomRightCorner<3, 3>() += load * arm * arm.transpose();
   }
   const Vector6 multiplier = normal.ldlt().solve(wrench);
   for (int i = 0; i < stances.count; ++i) {
     Stance& foot = stances.points[i];
     foot.force.setZero();
     if (left_out[i]) continue;
-    foot.force = multiplier.head<3>() + Cross(foot.point - at).transpose() * multiplier.tail<3>();
+    foot.force = foot.load *
+                 (multiplier.head<3>() + Cross(foot.point - at).transpose() * multiplier.tail<3>());
   }
 }
 
@@ -57,12 +60,14 @@ void CutToCone(double friction, Vec3& force) {
 
 }  // namespace
 
-Stances FindStances(const physics::World& world) {
+Stances FindStances(const physics::World& world, const std::array<double, 2>& loads) {
   Stances stances;
   for (const physics::ContactPoint& contact : world.contacts()) {
     if (!IsFoot(contact.body) || contact.other >= 0 || contact.distance > kTouching) continue;
     if (stances.count == Stances::kMax) break;
+    const bool right = contact.body == static_cast<int>(JointRole::kRightAnkle);
     stances.points[stances.count++] = {.body = contact.body,
+                                       .load = std::max(loads[right ? 0 : 1], kLeastLoad),
                                        .point = Eigen::Map<const Vec3>(contact.point),
                                        .force = Vec3::Zero()};
   }

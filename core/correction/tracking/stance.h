@@ -12,6 +12,7 @@ using math::Vec3;
 /// A point where a foot touches the ground.
 struct Stance {
   int body = 0;               ///< the foot
+  double load = 1;            ///< [> 0] how willingly it carries, against the other points
   Vec3 point = Vec3::Zero();  ///< [m]
   Vec3 force = Vec3::Zero();  ///< [N] that the ground is to exert there
 };
@@ -23,7 +24,10 @@ struct Stances {
   std::array<Stance, kMax> points;
 };
 
-Stances FindStances(const physics::World& world);
+/// `loads`: right and left foot's; see ReferenceMotion::FootLoads. A foot that the motion is
+/// lifting hardly carries where the other touches, too: else the weight that it is given holds it
+/// down.
+Stances FindStances(const physics::World& world, const std::array<double, 2>& loads);
 
 /// How the ground's reaction is shared.
 struct StanceLimits {
@@ -32,9 +36,9 @@ struct StanceLimits {
                                      ///< root could exert are given up
 };
 
-/// Shares a wrench (at `at`, world axes) over the points: damped least squares of their forces; a
-/// point that would have to pull is left out; each force is cut to its friction cone. What is cut
-/// nobody exerts.
+/// Shares a wrench (at `at`, world axes) over the points: damped least squares of their forces,
+/// squares divided by the loads; a point that would have to pull is left out; each force is cut to
+/// its friction cone. What is cut nobody exerts.
 void ShareWrench(const Vec3& at, const Vec3& force, const Vec3& torque, const StanceLimits& limits,
                  Stances& stances);
 

@@ -93,14 +93,15 @@ StatusOr<FrameEffort> TrackingEpisode::Advance(const FrameCommand& command) {
   return effort;
 }
 
-Speeds TrackingEpisode::FeedForward(const State& wanted, const Speeds& acceleration,
+Speeds TrackingEpisode::FeedForward(double time_s, const State& wanted,
                                     const Speeds& offset) const {
   const State& now = world_.state();
   const physics::Articulation& tree = model_->articulation();
   // With the reference's speeds: those of the simulation would feed its jerks back.
   State moving = now;
   moving.speeds = wanted.speeds;
-  Speeds forces = physics::InverseDynamics(tree, moving, acceleration, world_.gravity());
+  Speeds forces =
+      physics::InverseDynamics(tree, moving, reference_->AccelerationAt(time_s), world_.gravity());
   const double heavier = model_->config().body_mass_kg / kReferenceMass;
   const Vec3 force =
       forces.head<3>() + offset.head<3>() +
@@ -111,7 +112,7 @@ Speeds TrackingEpisode::FeedForward(const State& wanted, const Speeds& accelerat
                                  config_.pelvis_angular_damping *
                                      (wanted.speeds.segment<3>(3) - now.speeds.segment<3>(3)));
   const double friction = world_.config().friction;
-  Stances stances = FindStances(world_);
+  Stances stances = FindStances(world_, reference_->FootLoads(time_s));
   ShareWrench(now.root_position, force, torque,
               {.friction = friction * friction, .moment_softness_m2 = config_.moment_softness_m2},
               stances);
@@ -141,7 +142,7 @@ void TrackingEpisode::Aim(double time_s, const FrameCommand& command) {
   drive_.predict_bias = !config_.feed_forward;
   drive_.feed_forward.setZero();
   if (config_.feed_forward) {
-    drive_.feed_forward = FeedForward(wanted, reference_->AccelerationAt(time_s), command.offset);
+    drive_.feed_forward = FeedForward(time_s, wanted, command.offset);
   }
   const physics::ResidualGains gains =
       model_->residual_gains().Scaled(config_.residual_factor * command.residual_scale);
@@ -156,9 +157,8 @@ void TrackingEpisode::Aim(double time_s, const FrameCommand& command) {
 
 bool TrackingEpisode::Failed(double time_s) const {
   const State wanted = reference_->At(time_s);
-  if ((world_.state().root_position - wanted.root_position).norm() > config_.pelvis_limit_m) {
-    return true;
-  }
+  const Vec3 pelvis = reference_->SourceRootAt(time_s);
+  if ((world_.state().root_position - pelvis).norm() > config_.pelvis_limit_m) return true;
   const physics::Articulation& tree = model_->articulation();
   for (const physics::ContactPoint& contact : world_.contacts()) {
     const int body = contact.body;

@@ -54,7 +54,7 @@ class TrackingEpisode {
                   const TrackingConfig& config);
 
   void Aim(double time_s, const FrameCommand& command);
-  physics::Speeds FeedForward(const physics::State& wanted, const physics::Speeds& acceleration,
+  physics::Speeds FeedForward(double time_s, const physics::State& wanted,
                               const physics::Speeds& offset) const;
   void HoldResidual(const physics::State& wanted, const physics::ResidualGains& gains);
   bool Failed(double time_s) const;

@@ -31,7 +31,7 @@ bool BroughtTogether(const BodyShapes& shapes, int a, int b) {
 
 }  // namespace
 
-double SegmentDistance(const PlacedCapsule& a, const PlacedCapsule& b) {
+SegmentGap NearestPoints(const PlacedCapsule& a, const PlacedCapsule& b) {
   // Minimise |d + s u - t v| over s, t in [-1, 1]: the free minimum, clamped one after the other.
   const Vec3 &u = a.half_axis, &v = b.half_axis;
   const Vec3 d = a.center - b.center;
@@ -42,7 +42,12 @@ double SegmentDistance(const PlacedCapsule& a, const PlacedCapsule& b) {
   double s = determinant > 1e-12 * uu * vv ? clamp((uv * vd - vv * ud) / determinant) : 0;
   const double t = vv > 0 ? clamp((uv * s + vd) / vv) : 0;
   if (uu > 0) s = clamp((uv * t - ud) / uu);
-  return (d + s * u - t * v).norm();
+  return {.on_a = a.center + s * u, .on_b = b.center + t * v};
+}
+
+double SegmentDistance(const PlacedCapsule& a, const PlacedCapsule& b) {
+  const SegmentGap gap = NearestPoints(a, b);
+  return (gap.on_a - gap.on_b).norm();
 }
 
 std::vector<std::pair<int, int>> SeparatePairs(const BodyShapes& shapes) {

@@ -8,7 +8,13 @@
 
 namespace poise::motion {
 
-/// Smallest distance between two segments, given by centre and half axis (which may be zero) [m].
+/// The nearest points of two segments, given by centre and half axis (which may be zero).
+struct SegmentGap {
+  Vec3 on_a, on_b;  ///< [m]
+};
+SegmentGap NearestPoints(const PlacedCapsule& a, const PlacedCapsule& b);
+
+/// Their distance [m].
 double SegmentDistance(const PlacedCapsule& a, const PlacedCapsule& b);
 
 /// The pairs of bodies that must not overlap: all but those that the tree of bodies brings

@@ -208,7 +208,7 @@ TEST(ImitationEnvironmentTest, TheObservationDoesNotKnowWhereTheMotionHappens) {
   here.action.assign(here.action.size(), 0.02f);
   ASSERT_TRUE(here.environment->Step(here.action, here.observation).ok());
   ASSERT_TRUE(there->Step(here.action, observation).ok());
-  compare(0.02);  // the solver's friction has axes of its own
+  compare(0.04);  // the solver's friction has axes of its own
 }
 
 TEST(ImitationConfigTest, PresetsAndBadValues) {

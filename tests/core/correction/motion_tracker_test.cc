@@ -87,11 +87,11 @@ struct ClassScore {
 };
 
 ClassScore ScoreClass(const std::string& folder, const TrackingConfig& config,
-                      const physics::WorldConfig& world) {
+                      const physics::WorldConfig& world, const ReferenceConfig& reference = {}) {
   ClassScore sum;
   for (const auto& file : testing::DataFiles(folder, {".amc"})) {
     ++sum.clips;
-    const auto recording = Imitate(ReadAndPrepare(file), config, world);
+    const auto recording = Imitate(ReadAndPrepare(file, reference), config, world);
     if (!recording.ok()) continue;
     sum.completed += recording->score.completed;
     sum.reward_normalised += recording->score.reward_normalised;
@@ -104,8 +104,9 @@ ClassScore ScoreClass(const std::string& folder, const TrackingConfig& config,
 
 TEST(RealKicksTest, ThePapersZeroPolicyFallsInSome) {
   POISE_REQUIRE_DATA("hdm05/kickLFront1Reps");
-  const ClassScore score = ScoreClass("hdm05/kickLFront1Reps", *TrackingConfig::FromPreset("paper"),
-                                      *physics::WorldConfig::FromPreset("paper"));
+  const ClassScore score =
+      ScoreClass("hdm05/kickLFront1Reps", *TrackingConfig::FromPreset("paper"),
+                 *physics::WorldConfig::FromPreset("paper"), *ReferenceConfig::FromPreset("paper"));
   EXPECT_EQ(score.clips, 28);
   EXPECT_GE(score.completed, 18);
   EXPECT_LE(score.completed, 26);

@@ -47,6 +47,16 @@ TEST(StanceTest, AWeightAboveOneFootIsCarriedByThatFoot) {
   EXPECT_GT(left, 0.85 * 441);
 }
 
+TEST(StanceTest, AFootThatIsBeingLiftedHardlyCarries) {
+  Stances stances = TwoSoles();
+  for (int i = 0; i < 4; ++i) stances.points[i].load = 0.02;
+  ShareWrench(Vec3(0, 0.9, 0), Vec3(0, 441, 0), Vec3::Zero(), {.moment_softness_m2 = 1}, stances);
+  double right = 0;
+  for (int i = 0; i < 4; ++i) right += stances.points[i].force.y();
+  EXPECT_GT(right, 0);
+  EXPECT_LT(right, 0.05 * 441);
+}
+
 TEST(StanceTest, NoPointPullsOrSlides) {
   Stances stances = TwoSoles();
   ShareWrench(Vec3(0, 0.9, 0), Vec3(600, 300, 0), Vec3(200, 0, 100), {.friction = 0.5}, stances);

@@ -8,17 +8,17 @@
 
 namespace poise::correction {
 
-TrackedClip Prepare(const motion::Clip& clip) {
+TrackedClip Prepare(const motion::Clip& clip, const ReferenceConfig& config) {
   const motion::JointRoles roles = *motion::JointRoles::Detect(*clip.skeleton());
   const motion::Clip reduced =
       *motion::ReduceToRoles(clip, roles, motion::ReductionMode::kComposed);
   const motion::JointRoles reduced_roles = *motion::JointRoles::Detect(*reduced.skeleton());
   const physics::HumanoidModelPtr model = *physics::HumanoidModel::Create(reduced, reduced_roles);
-  return {model, *ReferenceMotion::Create(reduced, *model)};
+  return {model, *ReferenceMotion::Create(reduced, *model, config)};
 }
 
-TrackedClip ReadAndPrepare(const std::filesystem::path& file) {
-  return Prepare(motion::ReadClipFile(file)->clip);
+TrackedClip ReadAndPrepare(const std::filesystem::path& file, const ReferenceConfig& config) {
+  return Prepare(motion::ReadClipFile(file)->clip, config);
 }
 
 motion::Clip SwayingClip(double seconds) {

@@ -14,8 +14,8 @@ struct TrackedClip {
   ReferenceMotion reference;
 };
 
-TrackedClip Prepare(const motion::Clip& clip);
-TrackedClip ReadAndPrepare(const std::filesystem::path& file);
+TrackedClip Prepare(const motion::Clip& clip, const ReferenceConfig& config = {});
+TrackedClip ReadAndPrepare(const std::filesystem::path& file, const ReferenceConfig& config = {});
 
 /// The test skeleton stands for `seconds` and, from the first second on, sways its arms.
 motion::Clip SwayingClip(double seconds);

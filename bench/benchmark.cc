@@ -7,7 +7,7 @@ const std::vector<Benchmark>& Benchmarks() {
       {"blas", RunBlasBenchmark}, {"correction", RunCorrectionBenchmark},
       {"grpc", RunGrpcBenchmark}, {"ik", RunIkBenchmark},
       {"jobs", RunJobsBenchmark}, {"policy", RunPolicyBenchmark},
-      {"sim", RunSimBenchmark},
+      {"push", RunPushBenchmark}, {"sim", RunSimBenchmark},
   };
   return benchmarks;
 }

@@ -35,6 +35,7 @@ std::vector<Row> RunGrpcBenchmark();
 std::vector<Row> RunIkBenchmark();
 std::vector<Row> RunJobsBenchmark();
 std::vector<Row> RunPolicyBenchmark();
+std::vector<Row> RunPushBenchmark();
 std::vector<Row> RunSimBenchmark();
 
 }  // namespace poise::bench

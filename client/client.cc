@@ -8,10 +8,12 @@
 
 #include "client/artifact_transfer.h"
 #include "client/connection.h"
+#include "client/push_call.h"
 #include "client/transport_error.h"
 #include "client/variant_call.h"
 #include "core/base/sha256.h"
 #include "proto/convert/augment_convert.h"
+#include "proto/convert/push_convert.h"
 
 namespace poise::client {
 namespace {
@@ -72,6 +74,12 @@ StatusOr<std::unique_ptr<VariantStream>> Client::Augment(api::AugmentSpec spec) 
   POISE_RETURN_IF_ERROR(UploadLargeSources(spec));
   return std::make_unique<VariantStream>(
       std::make_unique<VariantStream::Call>(*connection_, convert::ToProto(spec)));
+}
+
+StatusOr<std::unique_ptr<PushStream>> Client::ForecastPush(const api::PushSpec& spec) {
+  POISE_RETURN_IF_ERROR(spec.Validate());
+  return std::make_unique<PushStream>(
+      std::make_unique<PushStream::Call>(*connection_, convert::ToProto(spec)));
 }
 
 Status Client::UploadLargeSources(api::AugmentSpec& spec) {

@@ -11,6 +11,7 @@
 #include "client/client_options.h"
 #include "client/job_handle.h"
 #include "client/job_watch.h"
+#include "client/push_stream.h"
 #include "client/stored_artifact.h"
 #include "client/variant_stream.h"
 #include "core/api/augment_spec.h"
@@ -18,6 +19,7 @@
 #include "core/api/job.h"
 #include "core/api/model_card.h"
 #include "core/api/predict_query.h"
+#include "core/api/push_spec.h"
 #include "core/base/status.h"
 
 namespace poise::client {
@@ -69,6 +71,10 @@ class Client {
   /// Errors: those of PredictQuery::Validate here, the others from the server.
   StatusOr<api::Forecast> Predict(api::PredictQuery query);
   static constexpr absl::Duration kMaxPast = absl::Seconds(30);  ///< more than any model looks at
+
+  /// Starts the forecast of a scene. Errors: those of PushSpec::Validate here, the others from the
+  /// stream.
+  StatusOr<std::unique_ptr<PushStream>> ForecastPush(const api::PushSpec& spec);
 
   /// Stores a file on the server; the same bytes get the same name. Goes on by itself when the
   /// connection breaks. Errors: kInternal CORRUPTED when the server stored something else; those of

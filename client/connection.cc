@@ -18,6 +18,7 @@ Connection::Connection(ClientOptions options)
       model_(v1::ModelService::NewStub(channel_)),
       data_(v1::DataService::NewStub(channel_)),
       job_(v1::JobService::NewStub(channel_)),
+      push_(v1::PushService::NewStub(channel_)),
       worker_(v1::WorkerService::NewStub(channel_)),
       admin_(v1::AdminService::NewStub(channel_)),
       health_(grpc::health::v1::Health::NewStub(channel_)) {}

@@ -14,6 +14,7 @@
 #include "poise/v1/job_service.grpc.pb.h"
 #include "poise/v1/model_service.grpc.pb.h"
 #include "poise/v1/prediction_service.grpc.pb.h"
+#include "poise/v1/push_service.grpc.pb.h"
 #include "poise/v1/worker_service.grpc.pb.h"
 
 namespace poise::client {
@@ -43,6 +44,7 @@ class Connection {
   v1::ModelService::Stub& model() const { return *model_; }
   v1::DataService::Stub& data() const { return *data_; }
   v1::JobService::Stub& job() const { return *job_; }
+  v1::PushService::Stub& push() const { return *push_; }
   v1::WorkerService::Stub& worker() const { return *worker_; }
   v1::AdminService::Stub& admin() const { return *admin_; }
   grpc::health::v1::Health::Stub& health() const { return *health_; }
@@ -56,6 +58,7 @@ class Connection {
   std::unique_ptr<v1::ModelService::Stub> model_;
   std::unique_ptr<v1::DataService::Stub> data_;
   std::unique_ptr<v1::JobService::Stub> job_;
+  std::unique_ptr<v1::PushService::Stub> push_;
   std::unique_ptr<v1::WorkerService::Stub> worker_;
   std::unique_ptr<v1::AdminService::Stub> admin_;
   std::unique_ptr<grpc::health::v1::Health::Stub> health_;

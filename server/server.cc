@@ -67,6 +67,7 @@ Server::Server(const ServerConfig& config, engine::Engine& engine, base::Telemet
       store_calls_(config.store_threads),
       augmentation_(engine, admission_, config.methods.augment, telemetry),
       prediction_(engine, admission_, config.methods),
+      push_(engine, admission_, config.methods.push, telemetry),
       artifacts_(engine.artifacts(), admission_, config.methods),
       models_(engine.models(), admission_, config.methods),
       data_(engine.data_sets(), admission_, config.methods),
@@ -89,6 +90,7 @@ Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
   builder.AddListeningPort(config.listen, grpc::InsecureServerCredentials(), &port);
   builder.RegisterService(&augmentation_);
   builder.RegisterService(&prediction_);
+  builder.RegisterService(&push_);
   builder.RegisterService(&artifacts_);
   builder.RegisterService(&models_);
   builder.RegisterService(&data_);
@@ -115,6 +117,7 @@ Status Server::Listen(const ServerConfig& config, base::Telemetry& telemetry) {
         v1::ArtifactService::service_full_name(), v1::ModelService::service_full_name(),
         v1::DataService::service_full_name(), v1::JobService::service_full_name(),
         v1::WorkerService::service_full_name(), v1::AdminService::service_full_name(),
+        v1::PushService::service_full_name(),
         google::longrunning::Operations::service_full_name()}) {
     server_->GetHealthCheckService()->SetServingStatus(service, true);
   }

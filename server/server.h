@@ -20,6 +20,7 @@
 #include "server/handlers/model_handler.h"
 #include "server/handlers/operations_handler.h"
 #include "server/handlers/prediction_handler.h"
+#include "server/handlers/push_handler.h"
 #include "server/handlers/unknown_method_handler.h"
 #include "server/handlers/worker_handler.h"
 
@@ -66,6 +67,7 @@ class Server {
   base::ThreadPool store_calls_;
   AugmentationHandler augmentation_;
   PredictionHandler prediction_;
+  PushHandler push_;
   ArtifactHandler artifacts_;
   ModelHandler models_;
   DataHandler data_;

@@ -21,6 +21,8 @@ Command AddAugmentCommand(CLI::App& app, const Console& console);
 Command AddPredictCommand(CLI::App& app, const Console& console);
 /// Variants that a simulated body has imitated (correct_command.cc).
 Command AddCorrectCommand(CLI::App& app, const Console& console);
+/// What people do after a push, forecast by a server (push_command.cc).
+Command AddPushCommand(CLI::App& app, const Console& console);
 /// Whether a server takes calls (health_command.cc).
 Command AddHealthCommand(CLI::App& app, const Console& console);
 /// Long work on a server (jobs_command.cc, jobs/).

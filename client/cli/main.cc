@@ -13,9 +13,8 @@ namespace {
 constexpr char kDescription[] =
     "Human motion in, more and better human motion out.\n\n"
     "Reads BVH, ASF/AMC, AMASS-style npz, CMU exponential-map text and DeepMimic JSON. info, "
-    "convert and fk work on files alone; augment, correct, predict, jobs, train, models, data, "
-    "admin and "
-    "health ask a Poise server (POISE_SERVER, default 127.0.0.1:50051).";
+    "convert and fk work on files alone; augment, correct, predict, push, jobs, train, models, "
+    "data, admin and health ask a Poise server (POISE_SERVER, default 127.0.0.1:50051).";
 constexpr char kFooter[] =
     "Examples:\n"
     "  poise info kick.bvh\n"
@@ -46,7 +45,7 @@ Status Main(const Console& console, int argc, char** argv) {
   std::vector<Command> commands = {AddInfoCommand(app, console),    AddConvertCommand(app, console),
                                    AddFkCommand(app, console),      AddAugmentCommand(app, console),
                                    AddCorrectCommand(app, console), AddPredictCommand(app, console),
-                                   AddHealthCommand(app, console)};
+                                   AddPushCommand(app, console),    AddHealthCommand(app, console)};
   for (Command& command : AddJobsCommands(app, console)) commands.push_back(std::move(command));
   commands.push_back(AddTrainCommand(app, console));
   for (Command& command : AddModelsCommands(app, console)) commands.push_back(std::move(command));

@@ -83,4 +83,22 @@ StatusOr<std::unique_ptr<AugmentRun>> Engine::PrepareAugment(api::AugmentSpec sp
                                       *artifacts_);
 }
 
+StatusOr<std::unique_ptr<pipeline::PushFlow>> Engine::PreparePush(api::PushSpec spec,
+                                                                  const base::RunContext& context) {
+  POISE_RETURN_IF_ERROR(spec.Validate());
+  const ClipCatalog catalog(*artifacts_);
+  std::vector<std::optional<pipeline::ResolvedSource>> bodies(spec.people.size());
+  for (size_t i = 0; i < spec.people.size(); ++i) {
+    POISE_RETURN_IF_ERROR(context.Check());
+    if (!spec.people[i].body) continue;
+    StatusOr<CatalogClip> clip = catalog.Resolve(*std::move(spec.people[i].body));
+    if (!clip.ok()) {
+      return base::Annotate(clip.status(), fmt::format("people[{}]", i),
+                            fmt::format("people[{}].body", i));
+    }
+    bodies[i] = std::move(clip->source);
+  }
+  return pipeline::PushFlow::Create(spec, std::move(bodies));
+}
+
 }  // namespace poise::engine

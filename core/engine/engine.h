@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/api/augment_spec.h"
+#include "core/api/push_spec.h"
 #include "core/artifacts/artifact_store.h"
 #include "core/artifacts/data_set_registry.h"
 #include "core/artifacts/model_registry.h"
@@ -17,6 +18,7 @@
 #include "core/engine/forecaster.h"
 #include "core/engine/job_manager.h"
 #include "core/engine/model_catalog.h"
+#include "core/pipeline/push.h"
 
 namespace poise::engine {
 
@@ -48,6 +50,13 @@ class Engine {
                                                        const base::RunContext& context);
 
   Forecaster& forecaster() { return *forecaster_; }
+
+  /// Resolves the people's clips and prepares the forecast. The caller runs PushFlow::Next on
+  /// compute(). Errors: those of ClipCatalog::Resolve and PushFlow::Create with the field
+  /// "people[i].body"; kCancelled, kDeadlineExceeded.
+  StatusOr<std::unique_ptr<pipeline::PushFlow>> PreparePush(api::PushSpec spec,
+                                                            const base::RunContext& context);
+
   artifacts::ArtifactStore& artifacts() { return *artifacts_; }
   JobManager& jobs() { return *jobs_; }
   ModelCatalog& models() { return models_; }

@@ -24,6 +24,7 @@ struct MethodPolicies {
   MethodPolicy predict{.default_deadline = absl::Seconds(30), .max_deadline = absl::Minutes(5)};
   /// As long as somebody moves before a camera.
   MethodPolicy predict_stream{.default_deadline = absl::Hours(1), .max_deadline = absl::Hours(24)};
+  MethodPolicy push{.default_deadline = absl::Minutes(10), .max_deadline = absl::Hours(1)};
   MethodPolicy upload{.default_deadline = absl::Minutes(10), .max_deadline = absl::Hours(1)};
   MethodPolicy get_upload{.default_deadline = absl::Minutes(1), .max_deadline = absl::Minutes(10)};
   MethodPolicy download{.default_deadline = absl::Minutes(10), .max_deadline = absl::Hours(1)};
@@ -47,10 +48,10 @@ struct MethodPolicies {
   /// The longest of all.
   absl::Duration longest() const {
     return std::max({augment.max_deadline, predict.max_deadline, predict_stream.max_deadline,
-                     upload.max_deadline, download.max_deadline, job.max_deadline,
-                     watch.max_deadline, job_result.max_deadline, wait_operation.max_deadline,
-                     model.max_deadline, data.max_deadline, worker.max_deadline,
-                     admin.max_deadline});
+                     push.max_deadline, upload.max_deadline, download.max_deadline,
+                     job.max_deadline, watch.max_deadline, job_result.max_deadline,
+                     wait_operation.max_deadline, model.max_deadline, data.max_deadline,
+                     worker.max_deadline, admin.max_deadline});
   }
 };
 

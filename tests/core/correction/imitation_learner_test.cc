@@ -181,7 +181,11 @@ TEST(ImitationLearnerTest, AFewSecondsOfLearningLowerTheForceOnUnseenVariants) {
   const auto steps = *synthesis::CreateMethod("ik", {.action_class = "deposit"});
   const synthesis::Draft source{clip, std::nullopt};
   const auto bound = *steps.front().synthesizer->Bind(source, roles);
-  const Corrector corrector = *Corrector::Create(clip, roles);
+  // As the clip came: prepared, it leaves too little force to learn away within seconds.
+  CorrectionConfig unprepared;
+  unprepared.reference.preparation.enabled = false;
+  unprepared.reference.floor = "lowest";
+  const Corrector corrector = *Corrector::Create(clip, roles, unprepared);
   ImitationConfig config;
   config.max_samples = 20'000;
   config.max_seconds = 1000;

@@ -283,7 +283,8 @@ TEST(ChildProcessRunnerTest, ResultStandsThoughTheProcessDoesNotEnd) {
   AttemptFolder job(Selftest());
   ChildProcessConfig config = Config();
   config.program = "/bin/sh";
-  config.arguments = {"sh", "-c", "echo '{\"result\":[]}' >&3; sleep 1000"};
+  config.arguments = {"sh", "-c",
+                      "echo '{\"result\":{\"files\":[],\"report\":null}}' >&3; sleep 1000"};
   config.exit_grace = absl::Milliseconds(200);
   ChildProcessRunner child(config);
   EXPECT_TRUE(job.Run(child).ok());

@@ -1,0 +1,160 @@
+// The hip network: what trains is what forecasts, and gradients reach every part of it.
+#include <gmock/gmock.h>
+#include <torch/torch.h>
+
+#include "core/learning/nn/module_state.h"
+#include "core/push/learned/hip_model.h"
+#include "core/push/learned/pose_model.h"
+#include "core/push/training/hip_net.h"
+#include "core/push/training/hip_training.h"
+#include "core/push/training/pose_training.h"
+#include "tests/core/push/fzj_data.h"
+
+namespace poise::push {
+namespace {
+
+using torch::Tensor;
+
+MatrixXf ToMatrix(const Tensor& tensor) {
+  const Tensor flat = tensor.contiguous();
+  return Eigen::Map<const MatrixXf>(flat.data_ptr<float>(), flat.size(0), flat.size(1));
+}
+
+// Four people in a line within reach of each other; the first is pushed.
+TakeBatch LineBatch(int64_t frames) {
+  const int64_t people = 4;
+  TakeBatch batch{.hip = torch::zeros({1, people, frames, 2}),
+                  .lean = torch::zeros({1, people, frames, 2}),
+                  .place = torch::zeros({1, people, 2}),
+                  .push = torch::zeros({1, people, frames, 2}),
+                  .context = 0.3 * torch::randn({1, people, kContextSize}),
+                  .mask = torch::ones({1, people, frames})};
+  for (int64_t i = 0; i < people; ++i) batch.place[0][i][0] = 0.5 * static_cast<double>(i);
+  batch.push.slice(1, 0, 1).slice(2, 0, 10).fill_(0.4);
+  return batch;
+}
+
+std::vector<Pair> PairsWithin(const MatrixXf& places, double reach) {
+  NeighbourPairs neighbours;
+  return neighbours.Find(places.cast<double>().array(), reach);
+}
+
+TEST(LearnedHipTest, ForecastsAreTheTrainedNetworksToAMillionth) {
+  torch::NoGradGuard no_gradient;
+  torch::manual_seed(1);
+  const HipConfig config;
+  HipNet net(config);
+  constexpr int64_t kFrames = 60;
+  const TakeBatch batch = LineBatch(kFrames);
+  const HipPaths expected = net->Rollout(batch, kFrames);
+  ASSERT_GT((expected.hip[0][3][kFrames - 1]).abs().max().item<double>(), 1e-3);
+
+  base::TensorFile file;
+  ASSERT_TRUE(learning::AppendState(*net, "hip.0.", file).ok());
+  const auto model = HipModel::Read(file, "hip.0.", config);
+  ASSERT_TRUE(model.ok()) << model.status();
+  HipStates states = HipStates::Standing(4, config.hidden);
+  const MatrixXf place = ToMatrix(batch.place[0]), context = ToMatrix(batch.context[0]);
+  for (int64_t frame = 0; frame + 1 < kFrames; ++frame) {
+    const MatrixXf push = ToMatrix(batch.push[0].select(1, frame)) / static_cast<float>(kPushScale);
+    model->Step(place, push, context, PairsWithin(place + states.hip, config.reach_m), states);
+    const MatrixXf hip = ToMatrix(expected.hip[0].select(1, frame + 1));
+    const MatrixXf lean = ToMatrix(expected.lean[0].select(1, frame + 1));
+    ASSERT_LT((states.hip - hip).cwiseAbs().maxCoeff(), 2e-6) << frame;
+    ASSERT_LT((states.lean - lean).cwiseAbs().maxCoeff(), 2e-6) << frame;
+  }
+}
+
+TEST(LearnedHipTest, GradientsOfTheInteractionAreFiniteDifferences) {
+  torch::manual_seed(2);
+  HipNet net(HipConfig{.hidden = 8, .message = 4, .message_hidden = 6});
+  net->to(torch::kFloat64);
+  TakeBatch batch = LineBatch(20);
+  for (Tensor* tensor :
+       {&batch.hip, &batch.lean, &batch.place, &batch.push, &batch.context, &batch.mask}) {
+    *tensor = tensor->to(torch::kFloat64);
+  }
+  // How far the one ahead of the pushed person comes: only messages move it by the push.
+  const auto travel = [&] { return net->Rollout(batch, 20).hip[0][1][19].sum(); };
+  travel().backward();
+  for (const char* name : {"message_in.weight", "message_out.weight"}) {
+    Tensor weight = net->named_parameters()[name];
+    const Tensor gradient = weight.grad().clone();
+    EXPECT_GT(gradient.abs().max().item<double>(), 1e-9) << name;
+    torch::NoGradGuard no_gradient;
+    constexpr double kStep = 1e-5;
+    for (const auto& [row, column] : {std::pair(0, 0), std::pair(1, 3), std::pair(2, 4)}) {
+      const double before = weight[row][column].item<double>();
+      weight[row][column] = before + kStep;
+      const double more = travel().item<double>();
+      weight[row][column] = before - kStep;
+      const double less = travel().item<double>();
+      weight[row][column] = before;
+      const double slope = (more - less) / (2 * kStep);
+      EXPECT_NEAR(gradient[row][column].item<double>(), slope, 1e-6 * std::abs(slope) + 1e-11)
+          << name << " " << row << " " << column;
+    }
+  }
+}
+
+TEST(LearnedHipTest, PosesAreTheTrainedNetworksToAMillionth) {
+  torch::NoGradGuard no_gradient;
+  torch::manual_seed(3);
+  const PoseConfig config{.lookahead = 4};
+  PoseNet net(config);
+  PoseBatch batch{.hip = torch::randn({3, 34, 2}).cumsum(1) * 0.01,
+                  .lean = torch::zeros({3, 30, 2}),
+                  .body = torch::randn({3, kBodySize}),
+                  .joints = torch::zeros({3, 30, kBodyJoints, 3}),
+                  .height = torch::zeros({3, 30}),
+                  .mask = torch::ones({3, 30})};
+  const Tensor expected = net->Forward(batch).height;
+  const Tensor path = PathFeatures(batch, config);
+  base::TensorFile file;
+  ASSERT_TRUE(learning::AppendState(*net, "", file).ok());
+  const auto model = PoseModel::Read(file, "", config);
+  ASSERT_TRUE(model.ok()) << model.status();
+  MatrixXf memory = MatrixXf::Zero(3, config.hidden);
+  for (int64_t frame = 0; frame < 30; ++frame) {
+    const MatrixXf pose =
+        model->Step(ToMatrix(path.select(1, frame)), ToMatrix(batch.body), memory);
+    for (int person = 0; person < 3; ++person) {
+      ASSERT_NEAR(pose(person, kPoseSize - 1), expected[person][frame].item<float>(), 1e-6);
+    }
+  }
+}
+
+TEST(LearnedHipTest, AFewStepsOnOneTakeBringItsHipNearer) {
+  POISE_REQUIRE_DATA("fzj_push");
+  const PushTake& take = testing::TakeNamed("X05", 0);
+  const TrainingTakes takes{{&take}, {&take}};
+  base::RunContext context;
+  context.seed = 1;
+  const auto trained =
+      TrainHip(takes, Protocol::kB, {},
+               {.steps = 60, .batch_size = 1, .mirror = false, .validate_every = 20}, context);
+  ASSERT_TRUE(trained.ok()) << trained.status();
+  base::Random random(1);
+  const TakeBatch batch = MakeBatch(takes.train, Protocol::kB, false, random);
+  const double standing = batch.hip.square().sum(-1).sqrt().mean().item<double>();
+  EXPECT_LT(trained->report.best_validation, 0.5 * standing);
+}
+
+TEST(LearnedHipTest, AMirroredTakeIsTheSameTakeFromTheOtherSide) {
+  POISE_REQUIRE_DATA("fzj_push");
+  const PushTake& take = testing::TakeNamed("group_1", 0);
+  const std::vector<const PushTake*> takes(8, &take);
+  base::Random random(4);
+  const TakeBatch batch = MakeBatch(takes, Protocol::kA, true, random);
+  const Tensor sides = batch.place.select(1, 1).select(1, 1).sign();
+  EXPECT_LT(sides.min().item<double>(), sides.max().item<double>());  // both occur
+  const Tensor side = sides.reshape({8, 1, 1});
+  EXPECT_LT((batch.hip.select(-1, 1) * side - batch.hip.select(-1, 1)[0] * side[0])
+                .abs()
+                .max()
+                .item<double>(),
+            1e-6);
+}
+
+}  // namespace
+}  // namespace poise::push

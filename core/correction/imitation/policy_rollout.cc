@@ -5,14 +5,17 @@
 namespace poise::correction {
 
 Commander PolicyCommander(const ImitationSpaces& spaces, const ImitationConfig& config,
-                          const ReferenceMotion& reference, const rl::Policy& policy) {
-  return [&spaces, &reference, actor = rl::Policy(policy),
+                          const ReferenceMotion& reference, const rl::Policy& policy,
+                          const ExtraObservation& extra) {
+  return [&spaces, &reference, extra, actor = rl::Policy(policy),
           hold = FramesPerAction(config, reference.frame_rate()),
-          observation = std::vector<float>(spaces.observation_size()),
+          observation = std::vector<float>(spaces.observation_size() + extra.size),
           action = std::vector<float>(spaces.action_size()),
           command = FrameCommand()](const TrackingEpisode& episode) mutable {
     if (episode.frame() % hold == 0) {
-      spaces.Observe(episode, reference, observation);
+      const std::span<float> all(observation);
+      spaces.Observe(episode, reference, all.first(spaces.observation_size()));
+      if (extra.size > 0) extra.observe(episode, all.last(extra.size));
       actor.Act(observation, action);
       command = spaces.Command(action, reference.frame(episode.frame()));
     }

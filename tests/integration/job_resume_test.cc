@@ -66,8 +66,11 @@ std::vector<Kill> KillAgainAndAgain(JobCluster& cluster, size_t& worker, const J
     // While it runs, and after some progress in this attempt.
     const double pause =
         std::uniform_real_distribution<double>(0.3, 1.4)(random) * seconds / (kills + 1.0);
-    WaitForJob(calls, id,
-               [&](const api::Job& job) { return job.attempt > static_cast<int>(done.size()); });
+    WaitForJob(calls, id, [&](const api::Job& job) {
+      if (api::IsTerminal(job.state)) return true;
+      return job.attempt > static_cast<int>(done.size()) && !job.attempts.empty() &&
+             job.attempts.back().last_step > job.attempts.back().from_step;
+    });
     absl::SleepFor(absl::Seconds(pause));
     const auto job = calls.Get(id);
     if (!job.ok() || job->state != api::JobState::kRunning) break;
@@ -135,30 +138,30 @@ TEST(JobResumeTest, AJobKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne)
   EXPECT_EQ(FaultOfHistory(resumed, *events), "");
 }
 
-// Twenty variants of a kick of this project.
-StatusOr<api::CreateJob> Correction(const std::string& server, const std::string& queue) {
+// Variants of a kick of this project; `parameters` beside the source.
+StatusOr<api::CreateJob> Correction(const std::string& server, base::Json parameters) {
   client::ClientOptions options;
   options.server = server;
   POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options));
   POISE_ASSIGN_OR_RETURN(const auto stored,
                          client->UploadFile(std::string(POISE_SAMPLES_DIR) + "/kick.bvh"));
+  parameters["sources"] = {{{"artifact", stored.name}, {"name", "kick.bvh"}}};
   api::CreateJob request;
-  request.spec = {.kind = "correct",
-                  .parameters = {{"sources", {{{"artifact", stored.name}, {"name", "kick.bvh"}}}},
-                                 {"variants_per_source", 20}}};
+  request.spec = {.kind = "correct", .parameters = std::move(parameters)};
   request.seed = 11;
-  request.queue = queue;
   return request;
 }
 
-TEST(JobResumeTest, ACorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne) {
+// Corrects with and without kills, and compares.
+void ExpectThatKillsChangeNothing(const base::Json& parameters, size_t files) {
   const int kills = FromEnvironment("POISE_RESUME_KILLS", 5);
   JobCluster cluster = NewCluster();
   cluster.StartWorker({"--queues", "calm", "--slots", "1"});
   const JobCalls calls(cluster.channel());
-  const auto calm_request = Correction(cluster.address(), "calm");
-  ASSERT_TRUE(calm_request.ok()) << calm_request.status();
-  const auto calm_job = calls.Create(*calm_request);
+  auto request = Correction(cluster.address(), parameters);
+  ASSERT_TRUE(request.ok()) << request.status();
+  request->queue = "calm";
+  const auto calm_job = calls.Create(*request);
   ASSERT_TRUE(calm_job.ok()) << calm_job.status();
   const auto timeout = absl::Seconds(300);
   const api::Job undisturbed = WaitForEnd(calls, calm_job->id, timeout);
@@ -166,7 +169,8 @@ TEST(JobResumeTest, ACorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnUndistur
   const double seconds = absl::ToDoubleSeconds(undisturbed.end_time - undisturbed.start_time);
 
   size_t rough = cluster.StartWorker({"--queues", "rough", "--slots", "1"});
-  const auto rough_job = calls.Create(*Correction(cluster.address(), "rough"));
+  request->queue = "rough";
+  const auto rough_job = calls.Create(*request);
   ASSERT_TRUE(rough_job.ok()) << rough_job.status();
   const std::vector<Kill> done =
       KillAgainAndAgain(cluster, rough, calls, rough_job->id, kills, seconds);
@@ -174,13 +178,36 @@ TEST(JobResumeTest, ACorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnUndistur
   const api::Job resumed = WaitForEnd(calls, rough_job->id, timeout);
   ASSERT_EQ(resumed.state, api::JobState::kSucceeded) << resumed.error->message;
   EXPECT_EQ(resumed.attempt, static_cast<int>(done.size()) + 1);
-  ASSERT_EQ(undisturbed.artifacts.size(), 21u) << "twenty files and the manifest";
+  ASSERT_EQ(undisturbed.artifacts.size(), files + 1) << "the files and the manifest";
   EXPECT_EQ(resumed.artifacts, undisturbed.artifacts) << "byte for byte: names are digests";
   EXPECT_GT(resumed.attempts.back().from_step, 0) << "it went on, and did not begin again";
-  std::printf(
-      "a correction of %.1f s, killed %zu times: %d attempts, the last from step %ld of %ld\n",
-      seconds, done.size(), resumed.attempt, static_cast<long>(resumed.attempts.back().from_step),
-      static_cast<long>(resumed.progress.total));
+  std::string steps;
+  for (const api::JobAttempt& attempt : resumed.attempts) {
+    steps += fmt::format(" {}-{}", attempt.from_step, attempt.last_step);
+  }
+  std::printf("a correction of %.1f s, killed %zu times: %d attempts, steps%s of %ld\n", seconds,
+              done.size(), resumed.attempt, steps.c_str(),
+              static_cast<long>(resumed.progress.total));
+}
+
+TEST(JobResumeTest, ACorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne) {
+  ExpectThatKillsChangeNothing({{"variants_per_source", 20}}, 20);
+}
+
+// A small network that learns for some seconds, so that most kills come while it does.
+TEST(JobResumeTest, ALearnedCorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne) {
+  ExpectThatKillsChangeNothing({{"effort", "full"},
+                                {"variants_per_source", 2},
+                                {"overrides",
+                                 {{"imitation.max_samples", "24000"},
+                                  {"imitation.evaluate_every", "1"},
+                                  {"imitation.held_out", "1"},
+                                  {"imitation.ppo.samples_per_update", "512"},
+                                  {"imitation.ppo.actor.hidden_layers", "32-32"},
+                                  {"imitation.ppo.critic.hidden_layers", "32-32"},
+                                  {"imitation.ppo.threads", "1"},
+                                  {"learning.rollouts", "2"}}}},
+                               2);
 }
 
 TEST(JobResumeTest, AJobOutlivesItsServerWithinTheLease) {

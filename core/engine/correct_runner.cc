@@ -136,7 +136,8 @@ StatusOr<jobs::RunOutput> CorrectRunner::Run(const jobs::RunInput& input,
   POISE_ASSIGN_OR_RETURN(const api::CorrectSpec spec, SpecOf(input.spec.parameters));
   POISE_ASSIGN_OR_RETURN(Sources sources, ReadSources(spec, input));
   POISE_ASSIGN_OR_RETURN(const auto flow,
-                         pipeline::CorrectFlow::Create(spec, input.seed, std::move(sources.clips)));
+                         pipeline::CorrectFlow::Create(spec, input.seed, std::move(sources.clips),
+                                                       {.make_learner = make_learner_}));
   CorrectState state = CorrectState::Empty(*flow);
   if (input.checkpoint) {
     POISE_ASSIGN_OR_RETURN(state, DecodeCheckpoint(*input.checkpoint, std::move(state)));
@@ -176,5 +177,10 @@ StatusOr<jobs::RunOutput> CorrectRunner::Run(const jobs::RunInput& input,
 std::unique_ptr<jobs::JobRunner> MakeCorrectRunner() { return std::make_unique<CorrectRunner>(); }
 
 Status ValidateCorrect(const base::Json& parameters) { return SpecOf(parameters).status(); }
+
+bool CorrectNeedsTorch(const base::Json& parameters) {
+  const StatusOr<api::CorrectSpec> spec = api::CorrectSpec::FromJson(parameters);
+  return spec.ok() && spec->effort == "full";
+}
 
 }  // namespace poise::engine

@@ -23,7 +23,7 @@ const std::vector<Flow>& FlowTable() {
       {"selftest", "steps that do nothing, for tests of the job system", jobs::ValidateSelftest,
        jobs::MakeSelftestRunner},
       {"correct", "variants of clips that a simulated body has imitated", ValidateCorrect,
-       MakeCorrectRunner},
+       MakeCorrectRunner, CorrectNeedsTorch},
       {"train_vae", "a variational autoencoder of one class's motions", ValidateTrainVae, nullptr},
   };
   return flows;
@@ -38,6 +38,20 @@ StatusOr<const Flow*> FindFlow(std::string_view kind) {
   return base::InvalidArgument(
       "UNKNOWN_JOB_KIND", "spec.kind",
       fmt::format("unknown kind of job '{}', expected one of: {}", kind, fmt::join(kinds, ", ")));
+}
+
+StatusOr<std::unique_ptr<jobs::JobRunner>> MakeLightRunner(std::string_view kind) {
+  POISE_ASSIGN_OR_RETURN(const Flow* flow, FindFlow(kind));
+  if (flow->make_runner != nullptr) return flow->make_runner();
+  return base::FailedPrecondition("NO_NETWORKS", "spec.kind",
+                                  fmt::format("this program runs no jobs of kind '{}'", kind));
+}
+
+bool NeedsTorch(const api::JobSpec& spec) {
+  const StatusOr<const Flow*> flow = FindFlow(spec.kind);
+  if (!flow.ok()) return false;
+  if ((*flow)->needs_torch != nullptr) return (*flow)->needs_torch(spec.parameters);
+  return (*flow)->make_runner == nullptr;
 }
 
 }  // namespace poise::engine

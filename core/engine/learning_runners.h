@@ -8,8 +8,8 @@
 
 namespace poise::engine {
 
-/// The runner of a kind, also of those that need LibTorch (the flow table, which the server reads,
-/// knows these by name only). For the process of a job. Errors: those of FindFlow.
+/// The runner of a kind, able to do what needs LibTorch (the flow table, which server and worker
+/// read, knows that by name only). For poise-learner. Errors: those of FindFlow.
 StatusOr<std::unique_ptr<jobs::JobRunner>> MakeRunner(std::string_view kind);
 
 }  // namespace poise::engine

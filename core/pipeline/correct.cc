@@ -8,7 +8,6 @@
 
 #include "core/base/random.h"
 #include "core/correction/corrector.h"
-#include "core/correction/imitation/imitation_learner.h"
 #include "core/pipeline/correct_settings.h"
 
 namespace poise::pipeline {
@@ -16,7 +15,7 @@ namespace {
 
 using correction::CorrectionConfig;
 using correction::Corrector;
-using correction::ImitationLearner;
+using correction::PolicyLearner;
 using correction::TrackingScore;
 
 /// Variants to learn from are drawn from a request of their own, so that none is corrected later.
@@ -70,7 +69,7 @@ struct Source {
   Corrector corrector;
   Corrector quick;  // without learning
   Corrector zero;
-  std::optional<ImitationLearner> learner = {};  // once Learn made it
+  std::unique_ptr<PolicyLearner> learner = {};  // once Learn made it
 };
 
 StatusOr<Source> MakeSource(ResolvedSource resolved, const CorrectionConfig& config) {
@@ -89,14 +88,15 @@ class CorrectFlow::Implementation {
  public:
   Implementation(const api::CorrectSpec& spec, uint64_t seed, CorrectSettings settings,
                  std::vector<Source> sources, std::unique_ptr<AugmentFlow> augment,
-                 std::unique_ptr<AugmentFlow> training)
+                 std::unique_ptr<AugmentFlow> training, PolicyLearnerFactory make_learner)
       : method(spec.method),
         seed(seed),
         variants_per_source(spec.Variants()),
         settings(std::move(settings)),
         sources(std::move(sources)),
         augment(std::move(augment)),
-        training(std::move(training)) {}
+        training(std::move(training)),
+        make_learner(std::move(make_learner)) {}
 
   // Of one pass over the motion.
   int rollouts() const {
@@ -141,15 +141,15 @@ class CorrectFlow::Implementation {
   }
 
   // The learner of a source as its checkpoint left it.
-  StatusOr<ImitationLearner*> Learner(int source, const LearnedPolicy& policy) {
-    std::optional<ImitationLearner>& learner = sources[source].learner;
+  StatusOr<PolicyLearner*> Learner(int source, const LearnedPolicy& policy) {
+    std::unique_ptr<PolicyLearner>& learner = sources[source].learner;
     const uint64_t own_seed =
         base::DeriveSeed(seed, {kTrainingStream, static_cast<uint64_t>(source)});
-    POISE_ASSIGN_OR_RETURN(
-        learner, ImitationLearner::Create(sources[source].corrector, TrainingVariants(source),
-                                          settings.imitation, own_seed));
+    POISE_ASSIGN_OR_RETURN(learner,
+                           make_learner(sources[source].corrector, TrainingVariants(source),
+                                        settings.imitation, own_seed));
     if (!policy.checkpoint.empty()) POISE_RETURN_IF_ERROR(learner->Restore(policy.checkpoint));
-    return &*learner;
+    return learner.get();
   }
 
   const std::string method;
@@ -159,6 +159,7 @@ class CorrectFlow::Implementation {
   std::vector<Source> sources;
   const std::unique_ptr<AugmentFlow> augment;   // none for the method none
   const std::unique_ptr<AugmentFlow> training;  // for effort full; none for the method none
+  const PolicyLearnerFactory make_learner;
 };
 
 CorrectFlow::CorrectFlow(std::unique_ptr<Implementation> implementation)
@@ -167,17 +168,22 @@ CorrectFlow::~CorrectFlow() = default;
 
 StatusOr<std::unique_ptr<CorrectFlow>> CorrectFlow::Create(const api::CorrectSpec& spec,
                                                            uint64_t seed,
-                                                           std::vector<ResolvedSource> sources) {
+                                                           std::vector<ResolvedSource> sources,
+                                                           CorrectNetworks networks) {
   POISE_RETURN_IF_ERROR(CheckCorrect(spec));
   POISE_ASSIGN_OR_RETURN(CorrectSettings settings, CorrectSettings::From(spec));
+  if (settings.learns && !networks.make_learner) {
+    return base::FailedPrecondition("NO_NETWORKS", "effort", "this program learns no policies");
+  }
   std::unique_ptr<AugmentFlow> augment, training;
   if (spec.method != kNoMethod) {
-    POISE_ASSIGN_OR_RETURN(augment, AugmentFlow::Create(AugmentSpecOf(spec, seed), sources));
+    POISE_ASSIGN_OR_RETURN(
+        augment, AugmentFlow::Create(AugmentSpecOf(spec, seed), sources, networks.decoder));
   }
   if (augment != nullptr && settings.learns) {
     api::AugmentSpec draws = AugmentSpecOf(spec, base::DeriveSeed(seed, {kTrainingStream}));
     draws.variants_per_source = api::AugmentSpec::kMaxVariants;
-    POISE_ASSIGN_OR_RETURN(training, AugmentFlow::Create(draws, sources));
+    POISE_ASSIGN_OR_RETURN(training, AugmentFlow::Create(draws, sources, networks.decoder));
   }
   std::vector<Source> made;
   for (ResolvedSource& source : sources) {
@@ -188,7 +194,8 @@ StatusOr<std::unique_ptr<CorrectFlow>> CorrectFlow::Create(const api::CorrectSpe
     made.push_back(*std::move(one));
   }
   return std::unique_ptr<CorrectFlow>(new CorrectFlow(std::make_unique<Implementation>(
-      spec, seed, std::move(settings), std::move(made), std::move(augment), std::move(training))));
+      spec, seed, std::move(settings), std::move(made), std::move(augment), std::move(training),
+      std::move(networks.make_learner))));
 }
 
 int CorrectFlow::num_sources() const { return static_cast<int>(implementation_->sources.size()); }
@@ -228,7 +235,7 @@ StatusOr<api::ZeroPolicyReport> CorrectFlow::ZeroPolicy(int source,
 Status CorrectFlow::Learn(int source, const base::RunContext& context,
                           const std::function<Status(const LearnedPolicy&)>& save,
                           LearnedPolicy& policy) {
-  POISE_ASSIGN_OR_RETURN(ImitationLearner* const learner, implementation_->Learner(source, policy));
+  POISE_ASSIGN_OR_RETURN(PolicyLearner* const learner, implementation_->Learner(source, policy));
   if (policy.finished) return absl::OkStatus();
   POISE_ASSIGN_OR_RETURN(const correction::TrainingReport report,
                          learner->Train(context, [&](std::string checkpoint) {

@@ -11,6 +11,7 @@
 #include "core/api/correct_spec.h"
 #include "core/api/correction_report.h"
 #include "core/base/run_context.h"
+#include "core/correction/policy_learner.h"
 #include "core/motion/clip.h"
 #include "core/pipeline/augment.h"
 
@@ -29,11 +30,20 @@ struct CorrectedVariant {
 
 /// What the effort `full` learned of one source; goes on from attempt to attempt.
 struct LearnedPolicy {
-  std::string checkpoint;  ///< of the ImitationLearner; empty: nothing yet
+  std::string checkpoint;  ///< of the PolicyLearner; empty: nothing yet
   bool finished = false;
   std::string stopped_by;               ///< see CorrectedClipReport
   std::vector<api::RewardPoint> curve;  ///< on variants that it did not learn from
   int64_t samples = 0;                  ///< actions that it learned from
+};
+
+/// Makes the learner of effort full; made by a target that links LibTorch (make_policy_learner.h).
+using PolicyLearnerFactory = correction::PolicyLearnerFactory;
+
+/// What only some requests need, and what takes LibTorch to make (poise_training).
+struct CorrectNetworks {
+  PolicyLearnerFactory make_learner = {};  ///< effort full
+  MotionDecoderPtr decoder = nullptr;      ///< step "vae" of the method
 };
 
 /// The correction flow: variants of clips, made by AugmentFlow and imitated by a simulated body,
@@ -45,9 +55,11 @@ struct LearnedPolicy {
 class CorrectFlow {
  public:
   /// `seed` is that of the variants. Errors: those of CheckCorrect, AugmentFlow::Create and
-  /// Corrector::Create; of a clip with the field "sources[i]".
+  /// Corrector::Create; of a clip with the field "sources[i]"; kFailedPrecondition NO_NETWORKS
+  /// when a policy is to be learned and nothing makes a learner.
   static StatusOr<std::unique_ptr<CorrectFlow>> Create(const api::CorrectSpec& spec, uint64_t seed,
-                                                       std::vector<ResolvedSource> sources);
+                                                       std::vector<ResolvedSource> sources,
+                                                       CorrectNetworks networks = {});
   ~CorrectFlow();
 
   int num_sources() const;
@@ -67,8 +79,8 @@ class CorrectFlow {
 
   /// Learns the policy that Correct then uses, from where `policy` is; one that is finished is only
   /// read. `save` gets it now and then. Stops when the policy gains no more, and at the limits of
-  /// the learner's config. Progress: see ImitationLearner. Errors: kCancelled, kDeadlineExceeded of
-  /// `context`; those of ImitationLearner and of `save`.
+  /// the learner's config. Progress: see PolicyLearner. Errors: kCancelled, kDeadlineExceeded of
+  /// `context`; those of PolicyLearner and of `save`.
   Status Learn(int source, const base::RunContext& context,
                const std::function<Status(const LearnedPolicy&)>& save, LearnedPolicy& policy);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/fail_point.h"
+#include "core/engine/flow_table.h"
 #include "core/runtime/jobs/child_message.h"
 #include "core/runtime/jobs/counting_runner.h"
 #include "core/runtime/jobs/deadline_runner.h"
@@ -139,8 +140,9 @@ absl::Duration Attempt::StopGrace() const {
 
 jobs::ChildProcessConfig Attempt::ChildConfig() const {
   jobs::ChildProcessConfig config;
-  config.program = setting_.config.child_program;
-  config.arguments = {"poise-worker", "--child"};
+  const bool learns = engine::NeedsTorch(lease_.spec);
+  config.program = learns ? setting_.config.learner_program : setting_.config.child_program;
+  config.arguments = {learns ? "poise-learner" : "poise-worker", "--child"};
   config.environment = ChildEnvironment();
   config.stall_timeout = lease_.limits.stall_timeout;
   config.stop_grace = [this] { return StopGrace(); };

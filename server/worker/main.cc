@@ -1,5 +1,5 @@
 // poise-worker: flags -> config -> Supervisor, until SIGTERM or SIGINT, or until there is nothing
-// to do. With --child (not for people) the process of one attempt.
+// to do. With --child (not for people) the process of one attempt that needs no LibTorch.
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
@@ -17,7 +17,6 @@
 #include "core/base/memory_policy.h"
 #include "core/base/version.h"
 #include "core/engine/flow_table.h"
-#include "core/engine/learning_runners.h"
 #include "core/runtime/jobs/child_side.h"
 #include "server/log.h"
 #include "server/shutdown_signal.h"
@@ -86,6 +85,8 @@ Options Defaults() {
   std::error_code ignored;
   worker.work_dir =
       std::filesystem::temp_directory_path(ignored) / fmt::format("poise-worker-{}", geteuid());
+  worker.learner_program =
+      std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / "poise-learner";
   return options;
 }
 
@@ -102,6 +103,11 @@ Status Complete(WorkerConfig& worker) {
   }
   if (worker.info.id.find('/') != std::string::npos || worker.info.id.starts_with('.')) {
     return base::InvalidArgument("BAD_WORKER", "id", "a worker's name is no path");
+  }
+  if (access(worker.learner_program.c_str(), X_OK) != 0) {
+    return base::FailedPrecondition(
+        "NO_LEARNER_PROGRAM", "",
+        fmt::format("the program {} is not there", worker.learner_program));
   }
   for (const std::string& kind : worker.kinds) {
     POISE_RETURN_IF_ERROR(engine::FindFlow(kind).status());
@@ -162,7 +168,7 @@ int ExitCode(absl::StatusCode code) {
   }
 }
 
-int ServeChild() { return jobs::ServeChild(engine::MakeRunner); }
+int ServeChild() { return jobs::ServeChild(engine::MakeLightRunner); }
 
 // poised blocks it until this program can handle it.
 void UnblockTerminate() {

@@ -19,6 +19,7 @@ struct WorkerConfig {
   std::vector<std::string> kinds;                ///< that it takes
   std::filesystem::path work_dir;                ///< attempts write below <work_dir>/<id>
   std::string child_program = "/proc/self/exe";  ///< called with --child
+  std::string learner_program;                   ///< the same for jobs that need LibTorch
 
   absl::Duration idle_exit = absl::InfiniteDuration();  ///< without a job for this long it ends
   absl::Duration max_time = absl::InfiniteDuration();   ///< after this it drains

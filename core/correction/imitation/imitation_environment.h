@@ -1,19 +1,15 @@
 #ifndef POISE_CORE_CORRECTION_IMITATION_IMITATION_ENVIRONMENT_H_
 #define POISE_CORE_CORRECTION_IMITATION_IMITATION_ENVIRONMENT_H_
 
-#include <functional>
 #include <memory>
 #include <optional>
 
 #include "core/correction/corrector.h"
 #include "core/correction/imitation/imitation_spaces.h"
+#include "core/correction/policy_learner.h"
 #include "core/learning/rl/environment.h"
 
 namespace poise::correction {
-
-/// Makes a variant of the learner's clip, always the same for the same draw.
-/// Threads: called from several at a time.
-using VariantSource = std::function<StatusOr<motion::Clip>(uint64_t draw)>;
 
 /// Draws are below this; the first ImitationConfig::held_out of them are never trained on.
 inline constexpr uint64_t kVariantDraws = 1'000'000;

@@ -7,6 +7,7 @@
 
 #include "absl/time/clock.h"
 #include "core/base/json.h"
+#include "core/correction/imitation/imitation_environment.h"
 #include "core/correction/imitation/policy_rollout.h"
 #include "core/learning/rl/ppo.h"
 
@@ -185,6 +186,7 @@ StatusOr<TrainingReport> ImitationLearner::Train(const base::RunContext& context
       context.deadline, begin + absl::Seconds(std::max(state.config.max_seconds - before, 0.0)));
   report.timed_out = false;
   if (report.curve.empty()) POISE_RETURN_IF_ERROR(state.EvaluateNow(context));
+  state.Report(context, before);
   while (!(report.converged = state.Converged()) &&
          state.ppo.samples() < state.config.max_samples) {
     const auto iteration = state.ppo.Iterate(limited);
@@ -195,11 +197,11 @@ StatusOr<TrainingReport> ImitationLearner::Train(const base::RunContext& context
     POISE_RETURN_IF_ERROR(iteration.status());
     report.seconds = seconds();
     report.samples = state.ppo.samples();
-    if (state.ppo.iterations() % state.config.evaluate_every == 0) {
-      POISE_RETURN_IF_ERROR(state.EvaluateNow(context));
-      if (checkpoint) POISE_RETURN_IF_ERROR(checkpoint(Save()));
-    }
+    const bool evaluates = state.ppo.iterations() % state.config.evaluate_every == 0;
+    if (evaluates) POISE_RETURN_IF_ERROR(state.EvaluateNow(context));
+    // Before the checkpoint, which is named by the progress that it holds.
     state.Report(context, report.seconds);
+    if (evaluates && checkpoint) POISE_RETURN_IF_ERROR(checkpoint(Save()));
   }
   if (state.evaluated < state.ppo.iterations()) POISE_RETURN_IF_ERROR(state.EvaluateNow(context));
   report.seconds = seconds();

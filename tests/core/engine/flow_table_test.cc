@@ -19,6 +19,22 @@ TEST(FlowTableTest, EveryKindIsThereOnceAndMakesItsRunnerIfItNeedsNoLibTorch) {
   EXPECT_EQ((*FindFlow("selftest"))->kind, "selftest");
 }
 
+TEST(FlowTableTest, OnlyJobsThatLearnNeedLibTorch) {
+  const base::Json source = {{"artifact", "artifacts/0"}, {"name", "kick.bvh"}};
+  const auto correct = [&](const char* effort) {
+    return NeedsTorch(
+        {.kind = "correct", .parameters = {{"sources", {source}}, {"effort", effort}}});
+  };
+  EXPECT_FALSE(correct("instant"));
+  EXPECT_FALSE(correct("fast"));
+  EXPECT_TRUE(correct("full"));
+  EXPECT_FALSE(NeedsTorch({.kind = "selftest", .parameters = {}}));
+  EXPECT_TRUE(NeedsTorch({.kind = "train_vae", .parameters = {}}));
+  EXPECT_FALSE(NeedsTorch({.kind = "nonsense", .parameters = {}}));
+  EXPECT_EQ(base::ErrorReason(MakeLightRunner("train_vae").status()), "NO_NETWORKS");
+  EXPECT_TRUE(MakeLightRunner("correct").ok());
+}
+
 TEST(FlowTableTest, UnknownKindIsRefusedWithTheKnownOnes) {
   const Status status = FindFlow("selftset").status();
   EXPECT_EQ(base::ErrorReason(status), "UNKNOWN_JOB_KIND");

@@ -206,68 +206,19 @@ TEST(CorrectTest, CancelledInTheMiddleItGoesOnWhereItWas) {
   EXPECT_EQ(api::ToJson(second.Report(0)).dump(), undisturbed->reports);
 }
 
-// A policy that learns for a moment only.
-api::CorrectSpec LearningSpec() {
+TEST(CorrectTest, WithoutALearnerTheEffortFullIsRefused) {
   api::CorrectSpec spec = Spec("ik", 2);
   spec.effort = "full";
-  spec.overrides = {{"learning.rollouts", "2"},
-                    {"imitation.held_out", "1"},
-                    {"imitation.max_samples", "600"},
-                    {"imitation.environments", "2"},
-                    {"imitation.ppo.samples_per_update", "200"},
-                    {"imitation.evaluate_every", "1"}};
-  return spec;
-}
-
-TEST(CorrectTest, FullLearnsAPolicyFirst) {
-  const auto flow = Flow(LearningSpec());
-  CorrectRun run(*flow, {.threads = 2}, CorrectState::Empty(*flow));
-  std::vector<base::Progress> progress;
-  base::RunContext context;
-  context.progress = [&](const base::Progress& value) { progress.push_back(value); };
-  const Status status = run.Run(context);
-  ASSERT_TRUE(status.ok()) << status;
-  const api::CorrectedClipReport report = run.Report(0);
-  EXPECT_EQ(report.stopped_by, "max_samples");
-  EXPECT_GE(report.reward_curve.back().samples, 600);
-  EXPECT_GT(report.samples, report.reward_curve.back().samples);
-  ASSERT_EQ(report.variants.size(), 2u);
-  for (const auto& variant : report.variants) {
-    EXPECT_TRUE(variant.completed);
-    EXPECT_TRUE(variant.effort == "fast" || variant.effort == "full") << variant.effort;
-  }
-  EXPECT_EQ(progress.back().step, progress.back().total);
-  for (size_t i = 1; i < progress.size(); ++i) {
-    EXPECT_GE(progress[i].metrics.at("samples"), progress[i - 1].metrics.at("samples") * 0.5);
-  }
-}
-
-TEST(CorrectTest, LearningThatWasCutOffEndsWithTheSamePolicy) {
-  const auto undisturbed = RunAll(*Flow(LearningSpec()), {.threads = 2});
-  ASSERT_TRUE(undisturbed.ok()) << undisturbed.status();
-  const auto flow = Flow(LearningSpec());
-  base::RunContext context;
-  CorrectState kept = CorrectState::Empty(*flow);
-  CorrectRun first(*flow,
-                   {.threads = 2,
-                    .on_done =
-                        [&](const CorrectState& state, int64_t) {
-                          kept = state;
-                          context.cancellation.Cancel();
-                          return absl::OkStatus();
-                        }},
-                   CorrectState::Empty(*flow));
-  EXPECT_TRUE(absl::IsCancelled(first.Run(context)));
-  ASSERT_FALSE(kept.policies[0].checkpoint.empty());
-  ASSERT_FALSE(kept.policies[0].finished);
-  const auto again = Flow(LearningSpec());
-  CorrectRun second(*again, {.threads = 1}, kept);
-  ASSERT_TRUE(second.Run({}).ok());
-  EXPECT_EQ(api::ToJson(second.Report(0)).dump(), undisturbed->reports);
+  std::vector<ResolvedSource> sources;
+  sources.push_back(Sample("kick"));
+  const Status status = CorrectFlow::Create(spec, 7, std::move(sources)).status();
+  EXPECT_EQ(base::ErrorReason(status), "NO_NETWORKS") << status;
+  EXPECT_EQ(base::ErrorField(status), "effort");
 }
 
 TEST(CorrectTest, TheResidualSaysWhoHoldsThePelvis) {
-  api::CorrectSpec spec = LearningSpec();
+  api::CorrectSpec spec = Spec("ik", 2);
+  spec.effort = "full";
   for (const auto& [residual, wrench, factor] :
        {std::tuple("pd", "pd_scaled", 2.0), std::tuple("none", "none", 0.0),
         std::tuple("rfc", "rfc", 0.0), std::tuple("pd_rfc", "pd_rfc", 2.0)}) {

@@ -150,7 +150,8 @@ int Run(const Options& options) {
 
   Report report(options, setup.clip.num_frames());
   if (options.yardsticks) {
-    const auto paper = Must(CorrectionConfig::FromPreset("paper"));
+    auto paper = Must(CorrectionConfig::FromPreset("paper"));
+    paper.reward = setup.correction.reward;
     report.Add("paper_zero",
                Corrected(Must(Corrector::Create(setup.clip, setup.roles, paper)), clips), 0, 0);
     report.Add("instant", Corrected(WithEffort(setup, "instant"), clips), 0, 0);

@@ -46,6 +46,7 @@ void LearningOptions::AddTo(CLI::App& app) {
   app.add_option("--class", action_class, "preset of the IK targets");
   app.add_option("--seed", seed, "of the variants and of training");
   app.add_option("--preset", preset, "recommended | paper");
+  app.add_option("--reward", reward, "motionaug | rfc | deepmimic");
   app.add_option("--set", overrides, "KEY=VALUE of the imitation, or correction.KEY");
   app.add_option("--csv", csv, "append the rows to this file");
   app.add_option("--commit", commit, "written into each row");
@@ -56,6 +57,7 @@ LearningSetup LearningSetup::From(const LearningOptions& options, std::vector<ba
   motion::JointRoles roles = Must(motion::JointRoles::Detect(*clip.skeleton()));
   auto correction = Must(correction::CorrectionConfig::FromPreset(options.preset));
   auto imitation = Must(correction::ImitationConfig::FromPreset(options.preset));
+  correction.reward = Must(correction::RewardConfig::FromPreset(options.reward));
   std::vector<base::Field> fields = imitation.Fields();
   base::Append(fields, base::Nested("correction", correction.Fields()));
   base::Append(fields, std::move(more));

@@ -30,7 +30,8 @@ void Must(const Status& status);
 
 /// What the programs that measure a policy of one clip have in common.
 struct LearningOptions {
-  std::string clip, action_class = "kick", preset = "recommended", csv, commit = "unknown";
+  std::string clip, action_class = "kick", preset = "recommended", reward = "motionaug";
+  std::string csv, commit = "unknown";
   uint64_t seed = 1;
   std::vector<std::string> overrides;  // "ppo.noise=0.05", "correction.tracking.residual_factor=1"
 

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "CLI/CLI.hpp"
 #include "core/pipeline/evaluate_predictor.h"
-#include "core/prediction/mixer/mixer_predictor.h"
 #include "core/prediction/predictor_registry.h"
-#include "core/prediction/training/train_mixer.h"
+#include "core/prediction/training/train_predictor.h"
 
 namespace poise {
 namespace {
@@ -27,7 +27,9 @@ struct Options {
   uint64_t first_seed = 1;
   std::vector<std::string> assignments;
   std::string out;
-  std::string save;  // prefix of the weights' files
+  std::string preset = "recommended";
+  std::string license;  // for the card
+  std::string save;     // prefix of the models' folders
 };
 
 StatusOr<motion::BenchmarkClips> LoadClips(const Options& options) {
@@ -35,8 +37,9 @@ StatusOr<motion::BenchmarkClips> LoadClips(const Options& options) {
   return motion::LoadHdm05Benchmark(options.data, options.action_class, options.left_out);
 }
 
-StatusOr<prediction::MixerTraining> Training(const Options& options) {
-  prediction::MixerTraining config;
+StatusOr<prediction::PredictorTraining> Training(const Options& options) {
+  POISE_ASSIGN_OR_RETURN(prediction::PredictorTraining config,
+                         prediction::PredictorTraining::FromPreset(options.preset));
   base::Overrides overrides;
   for (const std::string& assignment : options.assignments) {
     const size_t equals = assignment.find('=');
@@ -92,30 +95,49 @@ void PrintProgress(const base::Progress& progress) {
   };
   std::fprintf(stderr, "\rstep %ld of %ld  loss %.4f  validation %.4f  best %.4f  eta %.0f s   ",
                static_cast<long>(progress.step), static_cast<long>(progress.total),
-               metric("mixer.loss"), metric("validation"), metric("best_validation"),
+               metric("predictor.loss"), metric("validation"), metric("best_validation"),
                metric("eta_s"));
+}
+
+std::string TrainedOn(const Options& options) {
+  if (options.action_class.empty()) return "all training sequences of the prediction benchmark";
+  return fmt::format("class {}{}", options.action_class,
+                     options.left_out.empty() ? "" : ", without actor " + options.left_out);
+}
+
+// A model folder, and its learning curve beside it.
+Status Save(const Options& options, const prediction::PredictorResult& trained, uint64_t seed) {
+  const std::filesystem::path folder = fmt::format("{}_{}", options.save, seed);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder.string() + "_curve.csv") << trained.curve_csv;
+  return artifacts::WriteModelFolder(trained.model, folder);
 }
 
 Status LearnAndTest(const Options& options, const motion::BenchmarkClips& clips, uint64_t seed,
                     Results& results) {
-  POISE_ASSIGN_OR_RETURN(prediction::MixerTraining config, Training(options));
+  POISE_ASSIGN_OR_RETURN(const prediction::PredictorTraining config, Training(options));
   base::RunContext context;
   context.seed = seed;
   context.progress = PrintProgress;
-  POISE_ASSIGN_OR_RETURN(const prediction::TrainedMixer trained,
-                         prediction::TrainMixer(clips, config, context));
+  POISE_ASSIGN_OR_RETURN(
+      const prediction::PredictorResult trained,
+      prediction::TrainPredictor({.clips = clips,
+                                  .config = config,
+                                  .preset = options.preset,
+                                  .data = options.action_class.empty() ? "cmu" : "hdm05",
+                                  .data_fingerprint = "",
+                                  .data_license = options.license,
+                                  .trained_on = TrainedOn(options)},
+                                 context));
   std::fprintf(stderr, "\n");
+  const api::ModelCard& card = trained.model.card;
+  const auto validation = card.scores.find("validation_rad");
   std::printf("trained %ld steps in %.0f s, best after %ld: validation %.4f\n",
-              static_cast<long>(trained.steps), trained.seconds,
-              static_cast<long>(trained.best_step), trained.best_validation);
-  if (!options.save.empty()) {
-    std::ofstream(fmt::format("{}_{}.safetensors", options.save, seed), std::ios::binary)
-        << base::EncodeTensors(trained.weights);
-    std::ofstream(fmt::format("{}_{}_curve.csv", options.save, seed)) << trained.curve_csv;
-  }
-  POISE_ASSIGN_OR_RETURN(const auto predictor, prediction::MixerPredictor::Create(
-                                                   config.mixer, trained.body, trained.weights));
-  return results.Test(*predictor, {"mixer", "recommended", seed}, options.protocols);
+              static_cast<long>(card.steps), trained.seconds, static_cast<long>(trained.best_step),
+              validation == card.scores.end() ? 0.0 : validation->second);
+  if (!options.save.empty()) POISE_RETURN_IF_ERROR(Save(options, trained, seed));
+  POISE_ASSIGN_OR_RETURN(const auto predictor, prediction::MakeTrainedPredictor(trained.model));
+  return results.Test(*predictor, {config.family, options.preset, seed}, options.protocols);
 }
 
 Status Run(const Options& options) {
@@ -146,7 +168,9 @@ int main(int argc, char** argv) {
   app.add_option("--first-seed", options.first_seed);
   app.add_option("--set", options.assignments, "KEY=VALUE of the training; repeatable");
   app.add_option("--out", options.out, "Results file (CSV)");
-  app.add_option("--save", options.save, "Prefix for weights and learning curves");
+  app.add_option("--preset", options.preset, "recommended");
+  app.add_option("--license", options.license, "Of the data, for the model's card");
+  app.add_option("--save", options.save, "Prefix for folders of models and for learning curves");
   CLI11_PARSE(app, argc, argv);
   const poise::Status status = poise::Run(options);
   if (status.ok()) return 0;

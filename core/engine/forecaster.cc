@@ -18,7 +18,7 @@ api::EncodedClip AsBvh(const motion::Clip& clip, const motion::SourceConvention&
 }  // namespace
 
 StatusOr<api::Forecast> Forecaster::Predict(api::PredictQuery query,
-                                            const base::RunContext& context) const {
+                                            const base::RunContext& context) {
   POISE_RETURN_IF_ERROR(query.Validate());
   POISE_ASSIGN_OR_RETURN(const serving::ServedPredictor served, catalog_.Find(query.model));
   const StatusOr<CatalogClip> source = ClipCatalog(artifacts_).Resolve(std::move(query.source));
@@ -39,7 +39,7 @@ StatusOr<api::Forecast> Forecaster::Predict(api::PredictQuery query,
   return forecast;
 }
 
-StatusOr<ForecastStream> Forecaster::Open(const api::ForecastStreamSpec& spec) const {
+StatusOr<ForecastStream> Forecaster::Open(const api::ForecastStreamSpec& spec) {
   POISE_ASSIGN_OR_RETURN(serving::ServedPredictor served, catalog_.Find(spec.model));
   POISE_ASSIGN_OR_RETURN(pipeline::LiveForecast live,
                          pipeline::LiveForecast::Create(std::move(served.predictor), spec));

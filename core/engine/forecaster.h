@@ -20,14 +20,16 @@ struct ForecastStream {
 /// Threads: all members may be called from any thread.
 class Forecaster {
  public:
-  explicit Forecaster(artifacts::ArtifactStore& artifacts) : artifacts_(artifacts) {}
+  /// Both outlive the forecaster.
+  Forecaster(artifacts::ArtifactStore& artifacts, const artifacts::ModelRegistry& models)
+      : artifacts_(artifacts), catalog_(models) {}
 
   /// Errors: those of PredictQuery::Validate, PredictorCatalog::Find, ClipCatalog::Resolve (field
   /// "source") and prediction::Forecast.
-  StatusOr<api::Forecast> Predict(api::PredictQuery query, const base::RunContext& context) const;
+  StatusOr<api::Forecast> Predict(api::PredictQuery query, const base::RunContext& context);
 
   /// Errors: those of PredictorCatalog::Find and LiveForecast::Create.
-  StatusOr<ForecastStream> Open(const api::ForecastStreamSpec& spec) const;
+  StatusOr<ForecastStream> Open(const api::ForecastStreamSpec& spec);
 
  private:
   artifacts::ArtifactStore& artifacts_;

@@ -2,16 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
+
+#include "core/motion/skeleton_json.h"
 
 namespace poise::prediction {
 namespace {
-
-base::Json VectorJson(const motion::Vec3& v) { return base::Json{v.x(), v.y(), v.z()}; }
-
-motion::Vec3 VectorOf(const base::Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
 
 Status Malformed(std::string_view what) {
   return base::InvalidArgument("MALFORMED_CARD", "signature",
@@ -24,13 +21,7 @@ StatusOr<NetworkBody> Parse(const base::Json& json) {
   NetworkBody body{.skeleton = nullptr,
                    .frame_rate = json.at("frame_rate").get<double>(),
                    .joints = json.at("joints").get<std::vector<int>>()};
-  std::vector<motion::Joint> joints;
-  for (const base::Json& entry : json.at("skeleton")) {
-    joints.push_back({entry.at("name").get<std::string>(), entry.at("parent").get<int>(),
-                      VectorOf(entry.at("offset")), std::nullopt});
-    if (entry.contains("end_site")) joints.back().end_site = VectorOf(entry.at("end_site"));
-  }
-  POISE_ASSIGN_OR_RETURN(body.skeleton, motion::Skeleton::Create(std::move(joints)));
+  POISE_ASSIGN_OR_RETURN(body.skeleton, motion::SkeletonFromJson(json.at("skeleton")));
   for (const int joint : body.joints) {
     if (joint < 1 || joint >= body.skeleton->num_joints()) return Malformed("no such joint");
   }
@@ -51,15 +42,24 @@ NetworkBody NetworkBody::Of(const motion::BenchmarkClips& clips) {
   return body;
 }
 
-base::Json NetworkBody::ToJson() const {
-  base::Json bones = base::Json::array();
-  for (const motion::Joint& joint : skeleton->joints()) {
-    base::Json entry = {
-        {"name", joint.name}, {"parent", joint.parent}, {"offset", VectorJson(joint.offset)}};
-    if (joint.end_site) entry["end_site"] = VectorJson(*joint.end_site);
-    bones.push_back(std::move(entry));
+motion::MotionSignature NetworkBody::Signature() const {
+  motion::MotionSignature signature{.roles = {},
+                                    .rotation = motion::RotationRepresentation::kExponentialMap,
+                                    .frame_rate = frame_rate};
+  const auto roles = motion::JointRoles::Detect(*skeleton);
+  for (int joint = 0; roles.ok() && joint < skeleton->num_joints(); ++joint) {
+    const bool predicted =
+        joint == 0 || std::find(joints.begin(), joints.end(), joint) != joints.end();
+    const auto role = roles->role(joint);
+    if (predicted && role) signature.roles.push_back(*role);
   }
-  return {{"frame_rate", frame_rate}, {"joints", joints}, {"skeleton", std::move(bones)}};
+  return signature;
+}
+
+base::Json NetworkBody::ToJson() const {
+  return {{"frame_rate", frame_rate},
+          {"joints", joints},
+          {"skeleton", motion::SkeletonToJson(*skeleton)}};
 }
 
 StatusOr<NetworkBody> NetworkBody::FromJson(const base::Json& json) {

@@ -5,6 +5,7 @@
 
 #include "core/base/json.h"
 #include "core/motion/dataset/benchmark_clips.h"
+#include "core/motion/motion_signature.h"
 #include "core/motion/skeleton.h"
 
 namespace poise::prediction {
@@ -18,8 +19,11 @@ struct NetworkBody {
   /// Joints of which a column counts. Precondition: the benchmark has clips.
   static NetworkBody Of(const motion::BenchmarkClips& clips);
 
+  /// The same in the words of model cards: the roles that its joints play.
+  motion::MotionSignature Signature() const;
+
   base::Json ToJson() const;
-  /// Errors: kInvalidArgument MALFORMED_CARD, those of Skeleton::Create.
+  /// Errors: kInvalidArgument MALFORMED_CARD, those of SkeletonFromJson.
   static StatusOr<NetworkBody> FromJson(const base::Json& json);
 };
 

@@ -10,7 +10,7 @@
 namespace poise::server {
 
 PredictStream::PredictStream(grpc::CallbackServerContext* context, std::unique_ptr<Call> call,
-                             const engine::Forecaster& forecaster, base::ThreadPool& compute)
+                             engine::Forecaster& forecaster, base::ThreadPool& compute)
     : context_(context), call_(std::move(call)), forecaster_(forecaster), compute_(compute) {}
 
 PredictStream::Reactor* PredictStream::Start(std::shared_ptr<PredictStream> stream) {

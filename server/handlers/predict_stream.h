@@ -26,7 +26,7 @@ class PredictStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   using Reactor = grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>;
 
   PredictStream(grpc::CallbackServerContext* context, std::unique_ptr<Call> call,
-                const engine::Forecaster& forecaster, base::ThreadPool& compute);
+                engine::Forecaster& forecaster, base::ThreadPool& compute);
 
   static Reactor* Start(std::shared_ptr<PredictStream> stream);
 
@@ -44,7 +44,7 @@ class PredictStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
 
   grpc::CallbackServerContext* const context_;
   const std::unique_ptr<Call> call_;
-  const engine::Forecaster& forecaster_;
+  engine::Forecaster& forecaster_;
   base::ThreadPool& compute_;
   grpc::Alarm deadline_alarm_;
   std::shared_ptr<PredictStream> self_;

@@ -3,7 +3,11 @@
 
 #include <limits>
 
+#include "core/artifacts/model_artifact.h"
 #include "core/motion/editing/cut.h"
+#include "core/prediction/mixer/mixer_config.h"
+#include "core/prediction/network_body.h"
+#include "core/prediction/training/training_config.h"
 #include "poise/v1/prediction_service.grpc.pb.h"
 #include "proto/convert/clip_convert.h"
 #include "proto/convert/predict_convert.h"
@@ -65,6 +69,70 @@ TEST(PredictionServiceTest, AnswersInTheUnitAndChannelsOfABvhSource) {
   ASSERT_EQ(response.files_size(), 1);
   const std::string& answer = response.files(0).data();
   EXPECT_EQ(answer.substr(0, answer.find("MOTION")), bvh.substr(0, bvh.find("MOTION")));
+}
+
+// A mixer of which all weights are zero: holds the last pose.
+artifacts::ModelArtifact StillModel() {
+  prediction::PredictorTraining config;
+  config.mixer = {.past_frames = 4, .future_frames = 3, .width = 2, .hidden = 2, .blocks = 1};
+  const motion::SkeletonPtr skeleton = testing::Biped();
+  prediction::NetworkBody body{.skeleton = skeleton, .frame_rate = 120, .joints = {1, 2}};
+  const int features = prediction::MixerFeatures(2), still = prediction::MixerStillFeatures(2);
+  artifacts::ModelArtifact model;
+  model.card.family = "mixer";
+  model.card.config = base::FieldsToJson(config.Fields());
+  model.card.signature = body.Signature();
+  model.card.normalisation = {{"body", body.ToJson()}};
+  const auto add = [&](const std::string& name, std::vector<int64_t> shape, float value = 0) {
+    int64_t count = 1;
+    for (const int64_t n : shape) count *= n;
+    model.weights.tensors[name] =
+        base::TensorRecord::FromFloats(shape, std::vector<float>(count, value));
+  };
+  const auto layer = [&](const std::string& name, int out, int in) {
+    add(name + ".weight", in == 0 ? std::vector<int64_t>{out} : std::vector<int64_t>{out, in});
+    add(name + ".bias", {out});
+  };
+  add("past_dct", {4, 4}), add("future_dct", {3, 3}), add("scale", {features}, 1);
+  layer("past_in", 2, features), layer("still_in", 2, still);
+  layer("block0_time_norm", 2, 0), layer("block0_time", 4, 4), layer("block0_pose_norm", 2, 0);
+  layer("block0_up", 2, 2), layer("block0_down", 2, 2), layer("out_norm", 2, 0);
+  layer("time_out", 3, 4), layer("pose_out", features, 2);
+  model.card.weights_sha256 = artifacts::WeightsDigest(model.weights);
+  return model;
+}
+
+TEST(PredictionServiceTest, ServesTheTrainedModelsOfTheRegistryByVersion) {
+  TestServer server;
+  artifacts::ModelArtifact model = StillModel();
+  for (int version = 1; version <= 2; ++version) {
+    model.card.seed = version;
+    const auto stored = server.engine().artifacts().Put(artifacts::PackModel(model));
+    ASSERT_TRUE(stored.ok()) << stored.status();
+    ASSERT_TRUE(server.engine().models().Import("still", stored->name).ok());
+  }
+  for (const auto& [name, version] :
+       {std::pair("still", "2"), std::pair("still@1", "1"), std::pair("still@2", "2")}) {
+    v1::PredictRequest request = Request(name);
+    request.set_horizon_s(0.02);
+    v1::PredictResponse response;
+    const grpc::Status status = Predict(server, request, &response);
+    ASSERT_TRUE(status.ok()) << status.error_message();
+    EXPECT_EQ(response.model(), "still");
+    EXPECT_EQ(response.version(), version);
+    EXPECT_EQ(response.frame_times_s_size(), 2);
+  }
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"still@3", "UNKNOWN_VERSION"}, {"stil", "UNKNOWN_MODEL"}, {"no model", "BAD_MODEL_NAME"}};
+  for (const auto& [name, reason] : wrong) {
+    v1::PredictResponse response;
+    const Status error = convert::FromGrpc(Predict(server, Request(name), &response));
+    EXPECT_EQ(base::ErrorReason(error), reason) << error;
+    EXPECT_EQ(base::ErrorField(error), "model");
+  }
+  v1::PredictResponse response;
+  const Status error = convert::FromGrpc(Predict(server, Request("still"), &response));
+  EXPECT_EQ(base::ErrorReason(error), "HORIZON_TOO_LONG") << error;
 }
 
 TEST(PredictionServiceTest, EveryErrorNamesItsReasonAndField) {

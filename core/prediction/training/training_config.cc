@@ -1,9 +1,19 @@
 #include "core/prediction/training/training_config.h"
 
+#include <fmt/format.h>
+
 namespace poise::prediction {
 
-std::vector<base::Field> MixerTraining::Fields() {
-  std::vector<base::Field> fields = base::Nested("mixer", mixer.Fields());
+StatusOr<PredictorTraining> PredictorTraining::FromPreset(std::string_view name) {
+  if (name == "recommended") return PredictorTraining();
+  return base::InvalidArgument("UNKNOWN_PRESET", "preset",
+                               fmt::format("unknown preset '{}', expected recommended", name));
+}
+
+std::vector<base::Field> PredictorTraining::Fields() {
+  std::vector<base::Field> fields = {base::Text("family", &family, {"mixer"}),
+                                     base::Number("members", &members, 1, 64)};
+  base::Append(fields, base::Nested("mixer", mixer.Fields()));
   base::Append(fields, base::Nested("trainer", trainer.Fields()));
   base::Append(fields, base::Nested("optimizer", optimizer.Fields()));
   base::Append(fields, {base::Number("validation_share", &validation_share, 0, 0.5),
@@ -11,7 +21,7 @@ std::vector<base::Field> MixerTraining::Fields() {
   return fields;
 }
 
-Status MixerTraining::Validate() {
+Status PredictorTraining::Validate() {
   POISE_RETURN_IF_ERROR(base::CheckRanges(Fields()));
   POISE_RETURN_IF_ERROR(trainer.Validate());
   return optimizer.Validate();

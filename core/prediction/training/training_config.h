@@ -1,6 +1,7 @@
 #ifndef POISE_CORE_PREDICTION_TRAINING_TRAINING_CONFIG_H_
 #define POISE_CORE_PREDICTION_TRAINING_TRAINING_CONFIG_H_
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,9 +11,11 @@
 
 namespace poise::prediction {
 
-/// Everything that decides what a mixer becomes, but for data and seed. The defaults are the preset
-/// `recommended`.
-struct MixerTraining {
+/// Everything that decides what a predictor becomes, but for data and seed. The defaults are the
+/// preset `recommended`.
+struct PredictorTraining {
+  std::string family = "mixer";  ///< whose sizes below count
+  int members = 1;               ///< [1 to 64] networks of which the mean is the answer
   MixerConfig mixer;
   learning::TrainerConfig trainer{.steps = 5000, .batch_size = 64, .validate_every = 500};
   learning::OptimizerConfig optimizer{.type = "adamw",
@@ -25,6 +28,12 @@ struct MixerTraining {
   double validation_share = 0.1;
   bool mirror = true;  ///< learn from the mirror image of each sequence too
   bool speeds = true;  ///< and from each slower and faster by up to a fifth
+
+  /// Errors: kInvalidArgument UNKNOWN_PRESET.
+  static StatusOr<PredictorTraining> FromPreset(std::string_view name);
+  /// Of the chosen family.
+  int past_frames() const { return mixer.past_frames; }
+  int future_frames() const { return mixer.future_frames; }
 
   std::vector<base::Field> Fields();
   Status Validate();

@@ -1,14 +1,17 @@
-#include "core/prediction/training/train_mixer.h"
+#include "core/prediction/training/train_predictor.h"
 
 #include <algorithm>
 #include <numeric>
 
 #include "core/base/random.h"
+#include "core/base/version.h"
 #include "core/learning/nn/guard.h"
 #include "core/learning/nn/module_state.h"
 #include "core/learning/nn/trainer.h"
 #include "core/motion/dataset/windows.h"
 #include "core/prediction/mixer/mixer_net.h"
+#include "core/prediction/network_body.h"
+#include "core/prediction/tensors/ensemble_net.h"
 #include "core/prediction/training/training_clips.h"
 
 namespace poise::prediction {
@@ -72,7 +75,7 @@ class BalancedWindows {
 };
 
 // Mean Euler error over windows and frames.
-double ValidationError(MixerNet& net, const PoseWindows& windows, const EulerMeasure& measure,
+double ValidationError(PredictorNet& net, const PoseWindows& windows, const EulerMeasure& measure,
                        const NetworkBody& body) {
   const torch::Tensor joints =
       torch::tensor(std::vector<int64_t>(body.joints.begin(), body.joints.end()));
@@ -92,12 +95,42 @@ double ValidationError(MixerNet& net, const PoseWindows& windows, const EulerMea
   return sum / static_cast<double>(all.size());
 }
 
+std::shared_ptr<PredictorNet> MakeNet(const PredictorTraining& config, const NetworkBody& body,
+                                      const EulerMeasure& measure) {
+  if (config.members == 1) return std::make_shared<MixerNet>(config.mixer, body, measure);
+  std::vector<std::shared_ptr<PredictorNet>> members;
+  for (int i = 0; i < config.members; ++i) {
+    members.push_back(std::make_shared<MixerNet>(config.mixer, body, measure));
+  }
+  return std::make_shared<EnsembleNet>(std::move(members));
+}
+
+api::ModelCard MakeCard(const PredictorTask& task, const NetworkBody& body, uint64_t seed) {
+  PredictorTraining config = task.config;
+  api::ModelCard card;
+  card.family = config.family;
+  card.preset = task.preset;
+  card.config = base::FieldsToJson(config.Fields());
+  card.signature = body.Signature();
+  card.normalisation = {{"body", body.ToJson()}};
+  card.data = task.data;
+  card.data_fingerprint = task.data_fingerprint;
+  card.trained_on = task.trained_on;
+  card.data_license = task.data_license;
+  card.seed = seed;
+  card.program_version = base::Version();
+  return card;
+}
+
 }  // namespace
 
-StatusOr<TrainedMixer> TrainMixer(const motion::BenchmarkClips& clips, MixerTraining config,
-                                  const base::RunContext& context) {
+StatusOr<PredictorResult> TrainPredictor(const PredictorTask& task, const base::RunContext& context,
+                                         const std::optional<std::string>& checkpoint,
+                                         const learning::CheckpointSink& sink) {
+  const motion::BenchmarkClips& clips = task.clips;
+  PredictorTraining config = task.config;
   POISE_RETURN_IF_ERROR(config.Validate());
-  const int window = config.mixer.past_frames + config.mixer.future_frames;
+  const int window = config.past_frames() + config.future_frames();
   POISE_ASSIGN_OR_RETURN(
       const TrainingClips split,
       SplitForTraining(clips,
@@ -106,8 +139,8 @@ StatusOr<TrainedMixer> TrainMixer(const motion::BenchmarkClips& clips, MixerTrai
                         .mirror = config.mirror,
                         .speeds = config.speeds,
                         .drop_first_frame = clips.sense == motion::RotationSense::kRowVectors}));
-  TrainedMixer trained{.body = NetworkBody::Of(clips), .weights = {}, .curve_csv = ""};
-  const EulerMeasure measure = MeasureOf(clips, trained.body);
+  const NetworkBody body = NetworkBody::Of(clips);
+  const EulerMeasure measure = MeasureOf(clips, body);
   const BalancedWindows train(split, window);
   PoseWindows validation(window);
   for (const motion::Clip& clip : split.validation) {
@@ -115,33 +148,41 @@ StatusOr<TrainedMixer> TrainMixer(const motion::BenchmarkClips& clips, MixerTrai
   }
 
   learning::SeedTorch(context.seed);
-  auto net = std::make_shared<MixerNet>(config.mixer, trained.body, measure);
+  const std::shared_ptr<PredictorNet> net = MakeNet(config, body, measure);
   POISE_RETURN_IF_ERROR(learning::GuardStatus("scales", [&] {
     base::Random random(base::DeriveSeed(context.seed, {kFit}));
     net->Fit(train.Draw(kFitWindows, random));
     return absl::OkStatus();
   }));
   learning::TrainingSetup setup{.num_samples = train.size(), .seed = context.seed};
-  setup.networks.push_back(
-      {"mixer", net, config.optimizer,
-       [&](const learning::Batch& batch) -> StatusOr<learning::Loss> {
-         return learning::Loss{.total = net->Loss(train.Draw(batch.samples.size(), batch.random))};
-       }});
+  setup.networks.push_back({"predictor", net, config.optimizer,
+                            [&](const learning::Batch& batch) -> StatusOr<learning::Loss> {
+                              const size_t windows = batch.samples.size() * config.members;
+                              return learning::Loss{
+                                  .total = net->Loss(train.Draw(windows, batch.random))};
+                            }});
   if (validation.size() > 0) {
     setup.validate = [&]() -> StatusOr<double> {
-      return ValidationError(*net, validation, measure, trained.body);
+      return ValidationError(*net, validation, measure, body);
     };
   }
   POISE_ASSIGN_OR_RETURN(const auto trainer,
                          learning::Trainer::Create(std::move(setup), config.trainer));
-  POISE_ASSIGN_OR_RETURN(const learning::TrainingReport report, trainer->Run(context));
-  trained.steps = report.steps;
-  trained.best_step = report.best_step;
-  trained.best_validation = report.best_step < 0 ? 0 : report.best_validation;
-  trained.seconds = report.seconds;
-  trained.curve_csv = trainer->curve().ToCsv();
-  POISE_RETURN_IF_ERROR(learning::AppendState(*net, "", trained.weights));
-  return trained;
+  if (checkpoint) POISE_RETURN_IF_ERROR(trainer->Restore(*checkpoint));
+  POISE_ASSIGN_OR_RETURN(const learning::TrainingReport report, trainer->Run(context, sink));
+
+  PredictorResult result;
+  POISE_RETURN_IF_ERROR(learning::AppendState(*net, "", result.model.weights));
+  api::ModelCard& card = result.model.card;
+  card = MakeCard(task, body, context.seed);
+  card.steps = report.steps;
+  if (report.best_step >= 0) card.scores["validation_rad"] = report.best_validation;
+  card.weights_sha256 = artifacts::WeightsDigest(result.model.weights);
+  result.best_step = report.best_step;
+  result.seconds = report.seconds;
+  result.curve_csv = trainer->curve().ToCsv();
+  result.curve_svg = trainer->curve().ToSvg("Predictor: error while learning");
+  return result;
 }
 
 }  // namespace poise::prediction

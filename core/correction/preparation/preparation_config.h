@@ -25,7 +25,7 @@ struct PreparationConfig {
   // What a standing foot does.
   double flat_angle = 0.2;  ///< [rad, >= 0] a sole tilted less stands flat; nothing is flattened
                             ///< beyond twice the angle
-  double blend_s = 0.25;    ///< [s, > 0] over which a foot comes back to its own way
+  double blend_s = 0.15;    ///< [s, > 0] over which a foot comes back to its own way
   double glide_cutoff_hz = 1.5;  ///< [Hz, > 0] low-pass of what the body follows gliding feet by
   double longest_drop_m = 0.15;  ///< [m, >= 0] the pelvis sinks at most, so that legs reach
 

@@ -17,11 +17,12 @@ struct TrackingConfig {
       true;  ///< joints' PD damps against the reference's velocity, not against 0
   /// Torques that the reference's accelerations need, the feet carrying what they touch with.
   bool feed_forward = true;
-  double pelvis_stiffness = 4500;         ///< [N/m] of the pelvis, through the stance legs
-  double pelvis_damping = 900;            ///< [N s/m]
+  double pelvis_stiffness = 3000;         ///< [N/m] of the pelvis, through the stance legs
+  double pelvis_damping = 600;            ///< [N s/m]
   double pelvis_angular_stiffness = 300;  ///< [N m/rad]
-  double pelvis_angular_damping = 30;     ///< [N m s/rad]
-  double moment_softness_m2 = 3e-4;       ///< [m2] see StanceLimits (stance.h)
+  /// [N m s/rad] Explicit, on a light pelvis: from 20 on the load of the feet chatters at 600 Hz.
+  double pelvis_angular_damping = 12;
+  double moment_softness_m2 = 3e-4;  ///< [m2] see StanceLimits (stance.h)
 
   double residual_factor = 2;     ///< [0 to 2] on the gains of the PD-residual wrench
   bool implicit_residual = true;  ///< inside the PD's solve | false: held for a control step

@@ -131,12 +131,14 @@ void TrackingEpisode::HoldResidual(const State& wanted, const physics::ResidualG
 
 void TrackingEpisode::Aim(double time_s, const FrameCommand& command) {
   const State wanted = reference_->At(time_s);
-  drive_.target_rotations = wanted.rotations;
+  // The implicit solve compares poses at the end of the step; a target that moves is then there.
+  const State next = config_.target_velocity ? reference_->At(time_s + world_.step_s()) : wanted;
+  drive_.target_rotations = next.rotations;
   for (int i = 1; i < kMaxBodies; ++i) {
     const Vec3 turn = command.offset.segment<3>(SpeedIndex(i));
     if (!turn.isZero(0)) drive_.target_rotations[i] *= math::FromRotationVector(turn);
   }
-  drive_.target_root = wanted.root_position;
+  drive_.target_root = next.root_position;
   drive_.target_speeds = wanted.speeds;
   if (!config_.target_velocity) drive_.target_speeds.tail<physics::kMaxSpeeds - 6>().setZero();
   drive_.predict_bias = !config_.feed_forward;

@@ -18,6 +18,9 @@ namespace poise::correction {
 /// Threads: called from several at a time.
 using VariantSource = std::function<StatusOr<motion::Clip>(uint64_t draw)>;
 
+/// Draws are below this; the first ImitationConfig::held_out of them are never trained on.
+inline constexpr uint64_t kVariantDraws = 1'000'000;
+
 /// How well a policy does without noise on the held-out variants: means over them.
 struct PolicyScore {
   int64_t samples = 0;  ///< actions that it learned from

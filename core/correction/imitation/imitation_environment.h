@@ -11,9 +11,6 @@
 
 namespace poise::correction {
 
-/// Draws are below this; the first ImitationConfig::held_out of them are never trained on.
-inline constexpr uint64_t kVariantDraws = 1'000'000;
-
 /// The task of imitating variants of one clip: each episode draws a new variant and starts at a
 /// frame of it, in the reference's pose. It ends with a fall (terminated) or with the motion
 /// (truncated).

@@ -4,6 +4,7 @@
 
 #include "tests/core/correction/tracked_clip.h"
 #include "tests/support/data_files.h"
+#include "tests/support/sanitizer.h"
 
 namespace poise::correction {
 namespace {
@@ -65,6 +66,7 @@ TEST(IterativeLearningTest, ACancelledOneReturnsNothing) {
 }
 
 TEST(IterativeLearningTest, EightRolloutsFromTheZeroPolicyCompleteTheKicks) {
+  POISE_SKIP_WHERE_INSTRUMENTED();
   POISE_REQUIRE_DATA("hdm05/kickLFront1Reps");
   int completed = 0;
   for (const auto& file : testing::DataFiles("hdm05/kickLFront1Reps", {".amc"})) {
@@ -79,6 +81,7 @@ TEST(IterativeLearningTest, EightRolloutsFromTheZeroPolicyCompleteTheKicks) {
 
 TEST(IterativeLearningTest, LearningOnRealJogsLowersTheForceAndNotTheReward) {
   const std::string folder = "hdm05/jogLeftCircle4StepsRstart";
+  POISE_SKIP_WHERE_INSTRUMENTED();
   POISE_REQUIRE_DATA(folder);
   double force_before = 0, force_after = 0;
   for (const auto& file : testing::DataFiles(folder, {".amc"})) {

@@ -86,8 +86,8 @@ TEST(StalledWatchersTest, ThousandWatchersThatDoNotReadCostAFixedAmountOfMemoryA
       "RSS: idle %.0f MiB, %d stalled watchers %.0f MiB, 160 events later %.0f MiB; threads %d, "
       "then %d; CPU in 3 s: %.0f ms\n",
       idle, kWatchers, filled, later, threads, Threads(server), (cpu_later - cpu) * 1e3);
-  EXPECT_LT(later, filled + 16);
-  if (!testing::kInstrumented) {
+  if (!testing::kInstrumented) {  // AddressSanitizer keeps what was freed
+    EXPECT_LT(later, filled + 16);
     EXPECT_LT(filled - idle, 0.2 * kWatchers);
   }
   EXPECT_LE(Threads(server), threads + 4);  // gRPC's own come and go

@@ -1,7 +1,8 @@
 // Trains the recommended predictor on a published benchmark and tests it beside the floors:
 //
 //   predictor_learning --data DIR/cmu --protocol seeded75 all --seeds 3 --out r.csv
-//   predictor_learning --data DIR/hdm05 --class kickLFront1Reps --left-out tr --protocol loso
+//   predictor_learning --data DIR/hdm05 --benchmark hdm05 --class kickLFront1Reps --left-out tr
+//       --protocol loso
 //
 // The results file has the columns of `poise evaluate`. Progress goes to standard error.
 #include <fmt/format.h>
@@ -20,7 +21,8 @@ namespace {
 
 struct Options {
   std::string data;
-  std::string action_class;  // of HDM05; empty: CMU
+  std::string benchmark = "cmu";
+  std::string action_class;  // of HDM05; empty: all
   std::string left_out;
   std::vector<std::string> protocols = {"seeded75"};
   int seeds = 1;
@@ -28,12 +30,13 @@ struct Options {
   std::vector<std::string> assignments;
   std::string out;
   std::string preset = "recommended";
-  std::string license;  // for the card
-  std::string save;     // prefix of the models' folders
+  std::string license;              // for the card
+  std::vector<std::string> models;  // folders, to be tested
+  std::string save;                 // prefix of the models' folders
 };
 
 StatusOr<motion::BenchmarkClips> LoadClips(const Options& options) {
-  if (options.action_class.empty()) return motion::LoadCmuBenchmark(options.data);
+  if (options.benchmark == "cmu") return motion::LoadCmuBenchmark(options.data);
   return motion::LoadHdm05Benchmark(options.data, options.action_class, options.left_out);
 }
 
@@ -100,8 +103,9 @@ void PrintProgress(const base::Progress& progress) {
 }
 
 std::string TrainedOn(const Options& options) {
-  if (options.action_class.empty()) return "all training sequences of the prediction benchmark";
-  return fmt::format("class {}{}", options.action_class,
+  if (options.benchmark == "cmu") return "all training sequences of the prediction benchmark";
+  return fmt::format("{}{}",
+                     options.action_class.empty() ? "all classes" : "class " + options.action_class,
                      options.left_out.empty() ? "" : ", without actor " + options.left_out);
 }
 
@@ -119,16 +123,15 @@ Status LearnAndTest(const Options& options, const motion::BenchmarkClips& clips,
   base::RunContext context;
   context.seed = seed;
   context.progress = PrintProgress;
-  POISE_ASSIGN_OR_RETURN(
-      const prediction::PredictorResult trained,
-      prediction::TrainPredictor({.clips = clips,
-                                  .config = config,
-                                  .preset = options.preset,
-                                  .data = options.action_class.empty() ? "cmu" : "hdm05",
-                                  .data_fingerprint = "",
-                                  .data_license = options.license,
-                                  .trained_on = TrainedOn(options)},
-                                 context));
+  POISE_ASSIGN_OR_RETURN(const prediction::PredictorResult trained,
+                         prediction::TrainPredictor({.clips = clips,
+                                                     .config = config,
+                                                     .preset = options.preset,
+                                                     .data = options.benchmark,
+                                                     .data_fingerprint = "",
+                                                     .data_license = options.license,
+                                                     .trained_on = TrainedOn(options)},
+                                                    context));
   std::fprintf(stderr, "\n");
   const api::ModelCard& card = trained.model.card;
   const auto validation = card.scores.find("validation_rad");
@@ -147,6 +150,14 @@ Status Run(const Options& options) {
     POISE_RETURN_IF_ERROR(results.Test(*prediction::FindBuiltInPredictor(name),
                                        {name + "@1", "", 0}, options.protocols));
   }
+  for (const std::string& folder : options.models) {
+    POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
+                           artifacts::ReadModelFolder(folder));
+    POISE_ASSIGN_OR_RETURN(const auto predictor, prediction::MakeTrainedPredictor(model));
+    const std::string name = std::filesystem::path(folder).parent_path().filename().string();
+    POISE_RETURN_IF_ERROR(
+        results.Test(*predictor, {name, model.card.preset, model.card.seed}, options.protocols));
+  }
   for (int i = 0; i < options.seeds; ++i) {
     POISE_RETURN_IF_ERROR(LearnAndTest(options, clips, options.first_seed + i, results));
     POISE_RETURN_IF_ERROR(results.Write(options.out));
@@ -161,9 +172,12 @@ int main(int argc, char** argv) {
   poise::Options options;
   CLI::App app("Trains the recommended predictor and tests it beside the floors.");
   app.add_option("--data", options.data, "Folder of the benchmark")->required();
-  app.add_option("--class", options.action_class, "HDM05 class; CMU without it");
+  app.add_option("--benchmark", options.benchmark)->check(CLI::IsMember({"cmu", "hdm05"}));
+  app.add_option("--class", options.action_class, "HDM05 class; all without it");
   app.add_option("--left-out", options.left_out, "HDM05 actor that is the test");
   app.add_option("--protocol", options.protocols, "seeded60, seeded75, all, loso");
+  app.add_option("--model", options.models, "Folder of a trained model, tested too; repeatable")
+      ->allow_extra_args(false);
   app.add_option("--seeds", options.seeds, "Trainings; 0: the floors alone");
   app.add_option("--first-seed", options.first_seed);
   app.add_option("--set", options.assignments, "KEY=VALUE of the training; repeatable");

@@ -13,16 +13,17 @@ constexpr char kDescription[] =
     "What comes next: the motion that follows the end of a file.\n\n"
     "A model looks at the last seconds of the clip and predicts the frames after it, on the same "
     "body and at the same frame rate. They are written as BVH, in the unit, axes and channels of a "
-    "source that is BVH itself. zero-velocity holds the last pose and constant-velocity goes on as "
-    "the last two frames moved: the floors that a trained model has to beat.";
+    "source that is BVH itself. predictor-cmu comes with the program; zero-velocity holds the last "
+    "pose and constant-velocity goes on as the last two frames moved: the floors that a trained "
+    "model has to beat.";
 constexpr char kFooter[] =
     "Examples:\n"
-    "  poise predict walk.bvh --model constant-velocity --horizon 0.1 --out next.bvh\n"
+    "  poise predict walk.bvh --horizon 0.1 --out next.bvh\n"
     "  poise predict kick.amc --model zero-velocity@1 --json";
 
 struct PredictOptions {
   std::string file;
-  std::string model = "zero-velocity";
+  std::string model = "predictor-cmu";
   double horizon_s = 0.4;
   int samples = 1;
   uint64_t seed = 0;

@@ -74,10 +74,11 @@ TEST(PredictionServiceTest, AnswersInTheUnitAndChannelsOfABvhSource) {
 // A mixer of which all weights are zero: holds the last pose.
 artifacts::ModelArtifact StillModel() {
   prediction::PredictorTraining config;
-  config.mixer = {.past_frames = 4, .future_frames = 3, .width = 2, .hidden = 2, .blocks = 1};
+  config.members = 1;
+  config.mixer = {
+      .past_frames = 4, .future_frames = 3, .width = 2, .groups = 1, .hidden = 2, .blocks = 1};
   const motion::SkeletonPtr skeleton = testing::Biped();
   prediction::NetworkBody body{.skeleton = skeleton, .frame_rate = 120, .joints = {1, 2}};
-  const int features = prediction::MixerFeatures(2), still = prediction::MixerStillFeatures(2);
   artifacts::ModelArtifact model;
   model.card.family = "mixer";
   model.card.config = base::FieldsToJson(config.Fields());
@@ -93,11 +94,14 @@ artifacts::ModelArtifact StillModel() {
     add(name + ".weight", in == 0 ? std::vector<int64_t>{out} : std::vector<int64_t>{out, in});
     add(name + ".bias", {out});
   };
-  add("past_dct", {4, 4}), add("future_dct", {3, 3}), add("scale", {features}, 1);
-  layer("past_in", 2, features), layer("still_in", 2, still);
-  layer("block0_time_norm", 2, 0), layer("block0_time", 4, 4), layer("block0_pose_norm", 2, 0);
+  add("past_dct", {4, 4}), add("future_dct", {3, 3}),
+      add("scale", {prediction::MixerFeatures(2)}, 1);
+  layer("joint_in", 2, prediction::MixerJointInputs(4));
+  layer("root_in", 2, prediction::MixerRootInputs(4));
+  add("names", {3, 2}), add("block0_joints", {1, 3, 3});
+  layer("block0_joint_norm", 2, 0), layer("block0_within_norm", 2, 0);
   layer("block0_up", 2, 2), layer("block0_down", 2, 2), layer("out_norm", 2, 0);
-  layer("time_out", 3, 4), layer("pose_out", features, 2);
+  layer("joint_out", 9, 2), layer("root_out", 18, 2);
   model.card.weights_sha256 = artifacts::WeightsDigest(model.weights);
   return model;
 }

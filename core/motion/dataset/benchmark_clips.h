@@ -27,12 +27,11 @@ struct BenchmarkClips {
 /// Errors: kNotFound FOLDER_NOT_FOUND, NO_CLIPS; those of ReadClipFile.
 StatusOr<BenchmarkClips> LoadCmuBenchmark(const std::filesystem::path& folder);
 
-/// HDM05 clips of one class below `folder`/<class>/, on the 16 joints of MotionAug, every fourth
-/// frame (30 Hz): the clips of the actor that is left out are the test. Every column but the root's
-/// counts.
-/// Source: reference sec. 1.12.
-/// Errors: kNotFound FOLDER_NOT_FOUND, NO_CLIPS (an actor without clips; the message lists those
-/// there are); those of ReadClipFile and ReduceToRoles.
+/// HDM05 clips of one class below `folder`/<class>/ (of all where `action_class` is empty), on the
+/// 16 joints of MotionAug, every fourth frame (30 Hz): the clips of the actor that is left out are
+/// the test. Every column but the root's counts. Source: reference sec. 1.12. Errors: kNotFound
+/// FOLDER_NOT_FOUND, NO_CLIPS (an actor without clips; the message lists those there are); those of
+/// ReadClipFile and ReduceToRoles.
 StatusOr<BenchmarkClips> LoadHdm05Benchmark(const std::filesystem::path& folder,
                                             const std::string& action_class,
                                             const std::string& left_out);

@@ -18,13 +18,14 @@ constexpr int kKeptFrame = 4;  // of 120 Hz
 
 std::string ActorOf(const fs::path& path) { return LabelsOf(path.stem().string()).actor; }
 
+// Of one class, or of all where `name` is empty.
 StatusOr<std::vector<fs::path>> ClassFiles(const fs::path& folder, const std::string& name) {
   if (!fs::is_directory(folder / name)) {
     return base::NotFound("FOLDER_NOT_FOUND", "data",
                           fmt::format("no folder '{}'", (folder / name).string()));
   }
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder / name)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder / name)) {
     if (entry.path().extension() == ".amc") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
@@ -58,7 +59,7 @@ StatusOr<BenchmarkClips> LoadHdm05Benchmark(const fs::path& folder, const std::s
     POISE_ASSIGN_OR_RETURN(Clip clip, ReadReduced(path));
     const std::string actor = ActorOf(path);
     (actor == left_out ? clips.test : clips.train)
-        .push_back({action_class, actor, std::move(clip)});
+        .push_back({path.parent_path().filename().string(), actor, std::move(clip)});
   }
   if (clips.test.empty() || clips.train.empty()) {
     POISE_ASSIGN_OR_RETURN(const auto actors, Hdm05Actors(folder, action_class));

@@ -9,12 +9,11 @@ namespace {
 
 using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using ConstMap = Eigen::Map<const Matrix>;
-using Column = Eigen::Map<const Eigen::VectorXf>;
 using Row = Eigen::Map<const Eigen::RowVectorXf>;
 
 constexpr float kNormEpsilon = 1e-5f;  // as LibTorch's LayerNorm
 
-ConstMap Weight(const MixerLayer& layer, int outputs, int inputs) {
+ConstMap Weight(const MixerLayer& layer, Eigen::Index outputs, Eigen::Index inputs) {
   return ConstMap(layer.weight, outputs, inputs);
 }
 
@@ -29,42 +28,68 @@ void Normalise(const Matrix& h, const MixerLayer& norm, Matrix& out) {
   out.rowwise() += Row(norm.bias, h.cols());
 }
 
-// One block on the time coefficients of one sample; h is (past, width).
+void Apply(const MixerLayer& layer, const Eigen::Ref<const Matrix>& in, Eigen::Ref<Matrix> out) {
+  out.noalias() = in * Weight(layer, out.cols(), in.cols()).transpose();
+  out.rowwise() += Row(layer.bias, out.cols());
+}
+
+// One block on the tokens of one sample; h is (tokens, width).
 void AddBlock(const MixerSizes& sizes, const MixerBlock& block, Matrix& h, Matrix& normed,
               Matrix& wide) {
-  Normalise(h, block.time_norm, normed);
-  h.noalias() += Weight(block.time, sizes.past, sizes.past) * normed;
-  h.colwise() += Column(block.time.bias, sizes.past);
-  Normalise(h, block.pose_norm, normed);
-  wide.noalias() = normed * Weight(block.up, sizes.hidden, sizes.width).transpose();
-  wide.rowwise() += Row(block.up.bias, sizes.hidden);
+  const int tokens = sizes.joints + 1, shared = sizes.width / sizes.groups;
+  Normalise(h, block.joint_norm, normed);
+  for (int group = 0; group < sizes.groups; ++group) {
+    h.middleCols(group * shared, shared).noalias() +=
+        ConstMap(block.joints + group * tokens * tokens, tokens, tokens) *
+        normed.middleCols(group * shared, shared);
+  }
+  Normalise(h, block.within_norm, normed);
+  Apply(block.up, normed, wide);
   wide.array() = wide.array() / (1 + (-wide.array()).exp());  // x * sigmoid(x)
   h.noalias() += wide * Weight(block.down, sizes.width, sizes.hidden).transpose();
   h.rowwise() += Row(block.down.bias, sizes.width);
+}
+
+// What MixerNet's tokens are made of: joint_inputs (joints, 3 past + 6), root_inputs (1, 6 past +
+// 3).
+void GatherInputs(const MixerArguments& a, int sample, Matrix& joint_inputs, Matrix& root_inputs) {
+  const MixerSizes& s = a.sizes;
+  const long features = 3 * s.joints + 6;
+  const Matrix coefficients = ConstMap(a.past_dct, s.past, s.past) *
+                              ConstMap(a.past + sample * s.past * features, s.past, features);
+  for (int frame = 0; frame < s.past; ++frame) {
+    joint_inputs.middleCols(3 * frame, 3) = ConstMap(coefficients.row(frame).data(), s.joints, 3);
+    root_inputs.middleCols(6 * frame, 6) = coefficients.row(frame).tail(6);
+  }
+  const float* still = a.still + sample * (6L * s.joints + 3);
+  joint_inputs.rightCols(6) = ConstMap(still, s.joints, 6);
+  root_inputs.rightCols(3) = Row(still + 6 * s.joints, 3);
 }
 
 }  // namespace
 
 void MixerKernel(const MixerArguments& a) {
   const MixerSizes& s = a.sizes;
-  Matrix h(s.past, s.width), normed(s.past, s.width), wide(s.past, s.hidden);
-  Matrix coefficients(s.past, s.features), late(s.future, s.width), out(s.future, s.features);
+  const int tokens = s.joints + 1;
+  const long features = 3 * s.joints + 6;
+  Matrix joint_inputs(s.joints, 3 * s.past + 6), root_inputs(1, 6 * s.past + 3);
+  Matrix h(tokens, s.width), normed(tokens, s.width), wide(tokens, s.hidden);
+  Matrix turns(s.joints, 3 * s.future), path(1, 6 * s.future), out(s.future, features);
   for (int i = 0; i < a.batch; ++i) {
-    const ConstMap past(a.past + static_cast<long>(i) * s.past * s.features, s.past, s.features);
-    coefficients.noalias() = ConstMap(a.past_dct, s.past, s.past) * past;
-    h.noalias() = coefficients * Weight(a.past_in, s.width, s.features).transpose();
-    const Eigen::RowVectorXf pose = Row(a.still + static_cast<long>(i) * s.still, s.still) *
-                                    Weight(a.still_in, s.width, s.still).transpose();
-    h.rowwise() += Row(a.past_in.bias, s.width) + Row(a.still_in.bias, s.width) + pose;
+    GatherInputs(a, i, joint_inputs, root_inputs);
+    Apply(a.joint_in, joint_inputs, h.topRows(s.joints));
+    Apply(a.root_in, root_inputs, h.bottomRows(1));
+    h += ConstMap(a.names, tokens, s.width);
     for (int b = 0; b < s.blocks; ++b) AddBlock(s, a.blocks[b], h, normed, wide);
     Normalise(h, a.out_norm, normed);
-    late.noalias() = Weight(a.time_out, s.future, s.past) * normed;
-    late.colwise() += Column(a.time_out.bias, s.future);
-    out.noalias() = late * Weight(a.pose_out, s.features, s.width).transpose();
-    out.rowwise() += Row(a.pose_out.bias, s.features);
-    Eigen::Map<Matrix>(a.future + static_cast<long>(i) * s.future * s.features, s.future,
-                       s.features)
-        .noalias() = ConstMap(a.future_dct, s.future, s.future).transpose() * out;
+    Apply(a.joint_out, normed.topRows(s.joints), turns);
+    Apply(a.root_out, normed.bottomRows(1), path);
+    for (int frame = 0; frame < s.future; ++frame) {
+      Eigen::Map<Matrix>(out.row(frame).data(), s.joints, 3) = turns.middleCols(3 * frame, 3);
+      out.row(frame).tail(6) = path.middleCols(6 * frame, 6);
+    }
+    Eigen::Map<Matrix>(a.future + i * s.future * features, s.future, features).noalias() =
+        ConstMap(a.future_dct, s.future, s.future).transpose() * out;
   }
 }
 

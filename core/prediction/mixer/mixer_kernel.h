@@ -11,31 +11,32 @@ struct MixerLayer {
 };
 
 struct MixerBlock {
-  MixerLayer time_norm;  ///< scale and shift (width)
-  MixerLayer time;       ///< (past, past)
-  MixerLayer pose_norm;
+  MixerLayer joint_norm;  ///< scale and shift (width)
+  const float* joints;    ///< (groups, tokens, tokens)
+  MixerLayer within_norm;
   MixerLayer up;    ///< (hidden, width)
   MixerLayer down;  ///< (width, hidden)
 };
 
 struct MixerSizes {
-  int past, future, features, still, width, hidden, blocks;
+  int past, future, joints, width, groups, hidden, blocks;
 };
 
 struct MixerArguments {
   MixerSizes sizes;
   const float* past_dct;    ///< (past, past)
   const float* future_dct;  ///< (future, future)
-  MixerLayer past_in;       ///< (width, features)
-  MixerLayer still_in;      ///< (width, still)
+  MixerLayer joint_in;      ///< (width, 3 past + 6)
+  MixerLayer root_in;       ///< (width, 6 past + 3)
+  const float* names;       ///< (tokens, width): of the joints, then of the root
   const MixerBlock* blocks;
   MixerLayer out_norm;
-  MixerLayer time_out;  ///< (future, past)
-  MixerLayer pose_out;  ///< (features, width)
+  MixerLayer joint_out;  ///< (3 future, width)
+  MixerLayer root_out;   ///< (6 future, width)
   int batch;
-  const float* past;   ///< (batch, past, features)
-  const float* still;  ///< (batch, still)
-  float* future;       ///< (batch, future, features)
+  const float* past;   ///< (batch, past, 3 joints + 6)
+  const float* still;  ///< (batch, 6 joints + 3)
+  float* future;       ///< (batch, future, 3 joints + 6)
 };
 
 namespace isa_v2 {

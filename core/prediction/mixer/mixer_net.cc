@@ -17,6 +17,7 @@ using torch::nn::Linear;
 
 constexpr double kLeastScale = 1e-3;  // of a number that hardly changes
 constexpr double kRootShare = 0.1;    // of the root's error in the loss
+constexpr double kNameScale = 0.1;
 constexpr double kTiny = 1e-8;
 
 Tensor JointIndices(const NetworkBody& body) {
@@ -40,42 +41,67 @@ Tensor DctMatrix(int frames) {
 
 MixerNet::MixerNet(const MixerConfig& config, const NetworkBody& body, EulerMeasure measure)
     : config_(config), measure_(std::move(measure)), joints_(JointIndices(body)) {
-  const int joints = static_cast<int>(body.joints.size());
-  Build(MixerFeatures(joints), MixerStillFeatures(joints));
+  Build();
 }
 
-void MixerNet::Build(int features, int still_features) {
+void MixerNet::Build() {
+  const int64_t joints = joints_.size(0), tokens = joints + 1;
   const int past = config_.past_frames, future = config_.future_frames, width = config_.width;
   const LayerNormOptions norm(std::vector<int64_t>{width});
-  scale_ = register_buffer("scale", torch::ones({features}));
+  const auto uniform = [](std::vector<int64_t> shape, double most) {
+    return torch::empty(shape).uniform_(-most, most);
+  };
+  const auto silent = [](Linear& linear) {
+    torch::nn::init::zeros_(linear->weight);
+    torch::nn::init::zeros_(linear->bias);
+  };
+  scale_ = register_buffer("scale", torch::ones({MixerFeatures(static_cast<int>(joints))}));
   frame_weight_ = register_buffer("frame_weight", torch::ones({future}));
   past_dct_ = register_buffer("past_dct", DctMatrix(past));
   future_dct_ = register_buffer("future_dct", DctMatrix(future));
-  past_in_ = register_module("past_in", Linear(features, width));
-  still_in_ = register_module("still_in", Linear(still_features, width));
+  joint_in_ = register_module("joint_in", Linear(MixerJointInputs(past), width));
+  root_in_ = register_module("root_in", Linear(MixerRootInputs(past), width));
+  names_ = register_parameter("names", uniform({tokens, width}, kNameScale));
   for (int i = 0; i < config_.blocks; ++i) {
     const std::string name = fmt::format("block{}_", i);
-    blocks_.push_back({.time_norm = register_module(name + "time_norm", LayerNorm(norm)),
-                       .time = register_module(name + "time", Linear(past, past)),
-                       .pose_norm = register_module(name + "pose_norm", LayerNorm(norm)),
+    blocks_.push_back({.joint_norm = register_module(name + "joint_norm", LayerNorm(norm)),
+                       .joints = register_parameter(
+                           name + "joints", uniform({config_.groups, tokens, tokens},
+                                                    1 / std::sqrt(static_cast<double>(tokens)))),
+                       .within_norm = register_module(name + "within_norm", LayerNorm(norm)),
                        .up = register_module(name + "up", Linear(width, config_.hidden)),
                        .down = register_module(name + "down", Linear(config_.hidden, width))});
   }
   out_norm_ = register_module("out_norm", LayerNorm(norm));
-  time_out_ = register_module("time_out", Linear(past, future));
-  pose_out_ = register_module("pose_out", Linear(width, features));
-  torch::nn::init::zeros_(pose_out_->weight);
-  torch::nn::init::zeros_(pose_out_->bias);
+  joint_out_ = register_module("joint_out", Linear(width, 3 * future));
+  root_out_ = register_module("root_out", Linear(width, 6 * future));
+  silent(joint_out_);
+  silent(root_out_);
 }
 
 Tensor MixerNet::Forward(const Tensor& past, const Tensor& still) {
-  Tensor h = past_in_(torch::matmul(past_dct_, past / scale_)) + still_in_(still).unsqueeze(1);
+  const int64_t joints = joints_.size(0), future = config_.future_frames;
+  const Tensor x = torch::matmul(past_dct_, past / scale_);
+  const Tensor motion = x.slice(2, 0, 3 * joints).unflatten(2, {joints, 3}).transpose(1, 2);
+  const Tensor pose = still.slice(1, 0, 6 * joints).unflatten(1, {joints, 6});
+  const Tensor root =
+      torch::cat({x.slice(2, 3 * joints).flatten(1), still.slice(1, 6 * joints)}, 1);
+  Tensor h =
+      torch::cat({joint_in_(torch::cat({motion.flatten(2), pose}, 2)), root_in_(root).unsqueeze(1)},
+                 1) +
+      names_;
+  const int64_t shared = config_.width / config_.groups;
   for (Block& block : blocks_) {
-    h = h + Drop(block.time(block.time_norm(h).transpose(1, 2)).transpose(1, 2));
-    h = h + Drop(block.down(torch::silu(block.up(block.pose_norm(h)))));
+    const Tensor groups =
+        block.joint_norm(h).unflatten(2, {config_.groups, shared}).transpose(1, 2);
+    h = h + Drop(torch::matmul(block.joints, groups).transpose(1, 2).flatten(2));
+    h = h + Drop(block.down(torch::silu(block.up(block.within_norm(h)))));
   }
-  h = time_out_(out_norm_(h).transpose(1, 2)).transpose(1, 2);
-  return torch::matmul(future_dct_.t(), pose_out_(h)) * scale_;
+  h = out_norm_(h);
+  const Tensor turns =
+      joint_out_(h.slice(1, 0, joints)).unflatten(2, {future, 3}).transpose(1, 2).flatten(2);
+  const Tensor path = root_out_(h.select(1, joints)).unflatten(1, {future, 6});
+  return torch::matmul(future_dct_.t(), torch::cat({turns, path}, 2)) * scale_;
 }
 
 Tensor MixerNet::Changes(const PoseTensors& windows) const {
@@ -126,7 +152,11 @@ Tensor MixerNet::Loss(const PoseTensors& windows) {
   const Tensor root =
       (predicted - changes.slice(1, config_.past_frames)).slice(2, 3 * joints_.size(0));
   const Tensor root_errors = (root.square().sum(-1) + kTiny).sqrt();
-  return ((errors + kRootShare * root_errors) * frame_weight_).mean();
+  Tensor weighted = (errors + kRootShare * root_errors) * frame_weight_;
+  if (windows.recorded.defined()) {
+    weighted = weighted * windows.recorded.slice(1, config_.past_frames);
+  }
+  return weighted.mean();
 }
 
 PoseTensors MixerNet::Predict(const PoseTensors& windows) {

@@ -11,8 +11,9 @@
 
 namespace poise::prediction {
 
-/// MixerPredictor's network, to be trained: mixes over time and over the pose in turn, on the DCT
-/// coefficients of the motion. Untrained it says that nothing changes.
+/// MixerPredictor's network, to be trained: a token per joint, made of the DCT coefficients of its
+/// motion and of its last rotation; blocks mix between joints by free matrices, as the graphs of
+/// LTD do (reference sec. 4.2), and then within each joint. Untrained it says that nothing changes.
 /// Shapes: past (batch, past_frames, features), still (batch, still_features),
 ///         Forward (batch, future_frames, features); features as in mixer_config.h
 class MixerNet : public PredictorNet {
@@ -32,12 +33,12 @@ class MixerNet : public PredictorNet {
 
  private:
   struct Block {
-    torch::nn::LayerNorm time_norm = nullptr;
-    torch::nn::Linear time = nullptr;
-    torch::nn::LayerNorm pose_norm = nullptr;
+    torch::nn::LayerNorm joint_norm = nullptr;
+    torch::Tensor joints;  // (groups, tokens, tokens)
+    torch::nn::LayerNorm within_norm = nullptr;
     torch::nn::Linear up = nullptr, down = nullptr;
   };
-  void Build(int features, int still_features);
+  void Build();
   torch::Tensor Changes(const PoseTensors& windows) const;  // (batch, frames, features)
   torch::Tensor Still(const PoseTensors& windows) const;
   torch::Tensor Turned(const PoseTensors& windows, const torch::Tensor& changes) const;
@@ -51,10 +52,11 @@ class MixerNet : public PredictorNet {
   torch::Tensor scale_;         // (features) typical size of a change
   torch::Tensor frame_weight_;  // (future_frames) mean 1
   torch::Tensor past_dct_, future_dct_;
-  torch::nn::Linear past_in_ = nullptr, still_in_ = nullptr;
+  torch::nn::Linear joint_in_ = nullptr, root_in_ = nullptr;
+  torch::Tensor names_;  // (tokens, width) tell joints apart; the root is the last
   std::vector<Block> blocks_;
   torch::nn::LayerNorm out_norm_ = nullptr;
-  torch::nn::Linear time_out_ = nullptr, pose_out_ = nullptr;
+  torch::nn::Linear joint_out_ = nullptr, root_out_ = nullptr;
 };
 
 /// Orthonormal DCT-II matrix, (coefficient, frame).

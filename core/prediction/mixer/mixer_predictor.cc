@@ -34,12 +34,11 @@ MixerPredictor::MixerPredictor(const MixerConfig& config, NetworkBody body)
                  .frame_rate = body_.frame_rate,
                  .past_frames = config.past_frames,
                  .max_future_frames = config.future_frames} {
-  const int joints = static_cast<int>(body_.joints.size());
   arguments_.sizes = {.past = config.past_frames,
                       .future = config.future_frames,
-                      .features = MixerFeatures(joints),
-                      .still = MixerStillFeatures(joints),
+                      .joints = static_cast<int>(body_.joints.size()),
                       .width = config.width,
+                      .groups = config.groups,
                       .hidden = config.hidden,
                       .blocks = config.blocks};
 }
@@ -68,26 +67,33 @@ StatusOr<MixerLayer> MixerPredictor::TakeLayer(const base::TensorFile& weights,
 
 Status MixerPredictor::Load(const base::TensorFile& weights) {
   const MixerSizes& s = arguments_.sizes;
+  const int64_t tokens = s.joints + 1;
   POISE_ASSIGN_OR_RETURN(arguments_.past_dct, Take(weights, "past_dct", {s.past, s.past}));
   POISE_ASSIGN_OR_RETURN(arguments_.future_dct, Take(weights, "future_dct", {s.future, s.future}));
-  POISE_ASSIGN_OR_RETURN(arguments_.past_in, TakeLayer(weights, "past_in", {s.width, s.features}));
-  POISE_ASSIGN_OR_RETURN(arguments_.still_in, TakeLayer(weights, "still_in", {s.width, s.still}));
+  POISE_ASSIGN_OR_RETURN(arguments_.joint_in,
+                         TakeLayer(weights, "joint_in", {s.width, MixerJointInputs(s.past)}));
+  POISE_ASSIGN_OR_RETURN(arguments_.root_in,
+                         TakeLayer(weights, "root_in", {s.width, MixerRootInputs(s.past)}));
+  POISE_ASSIGN_OR_RETURN(arguments_.names, Take(weights, "names", {tokens, s.width}));
   for (int i = 0; i < s.blocks; ++i) {
     const std::string name = fmt::format("block{}_", i);
     MixerBlock block;
-    POISE_ASSIGN_OR_RETURN(block.time_norm, TakeLayer(weights, name + "time_norm", {s.width}));
-    POISE_ASSIGN_OR_RETURN(block.time, TakeLayer(weights, name + "time", {s.past, s.past}));
-    POISE_ASSIGN_OR_RETURN(block.pose_norm, TakeLayer(weights, name + "pose_norm", {s.width}));
+    POISE_ASSIGN_OR_RETURN(block.joint_norm, TakeLayer(weights, name + "joint_norm", {s.width}));
+    POISE_ASSIGN_OR_RETURN(block.joints,
+                           Take(weights, name + "joints", {s.groups, tokens, tokens}));
+    POISE_ASSIGN_OR_RETURN(block.within_norm, TakeLayer(weights, name + "within_norm", {s.width}));
     POISE_ASSIGN_OR_RETURN(block.up, TakeLayer(weights, name + "up", {s.hidden, s.width}));
     POISE_ASSIGN_OR_RETURN(block.down, TakeLayer(weights, name + "down", {s.width, s.hidden}));
     blocks_.push_back(block);
   }
   arguments_.blocks = blocks_.data();
   POISE_ASSIGN_OR_RETURN(arguments_.out_norm, TakeLayer(weights, "out_norm", {s.width}));
-  POISE_ASSIGN_OR_RETURN(arguments_.time_out, TakeLayer(weights, "time_out", {s.future, s.past}));
-  POISE_ASSIGN_OR_RETURN(arguments_.pose_out,
-                         TakeLayer(weights, "pose_out", {s.features, s.width}));
-  POISE_ASSIGN_OR_RETURN(scale_, weights.Floats("scale", std::vector<int64_t>{s.features}));
+  POISE_ASSIGN_OR_RETURN(arguments_.joint_out,
+                         TakeLayer(weights, "joint_out", {3 * s.future, s.width}));
+  POISE_ASSIGN_OR_RETURN(arguments_.root_out,
+                         TakeLayer(weights, "root_out", {6 * s.future, s.width}));
+  POISE_ASSIGN_OR_RETURN(scale_,
+                         weights.Floats("scale", std::vector<int64_t>{MixerFeatures(s.joints)}));
   return absl::OkStatus();
 }
 
@@ -144,12 +150,13 @@ StatusOr<std::vector<Clip>> MixerPredictor::Predict(std::span<const Observation>
   POISE_RETURN_IF_ERROR(CheckObservations(signature_, batch, future_frames));
   POISE_RETURN_IF_ERROR(context.Check());
   const MixerSizes& sizes = arguments_.sizes;
-  std::vector<float> past(batch.size() * sizes.past * sizes.features);
-  std::vector<float> still(batch.size() * sizes.still);
-  std::vector<float> future(batch.size() * sizes.future * sizes.features);
+  const size_t features = scale_.size(), still_features = MixerStillFeatures(sizes.joints);
+  std::vector<float> past(batch.size() * sizes.past * features);
+  std::vector<float> still(batch.size() * still_features);
+  std::vector<float> future(batch.size() * sizes.future * features);
   for (size_t i = 0; i < batch.size(); ++i) {
-    WriteFeatures(batch[i].past, past.data() + i * sizes.past * sizes.features,
-                  still.data() + i * sizes.still);
+    WriteFeatures(batch[i].past, past.data() + i * sizes.past * features,
+                  still.data() + i * still_features);
   }
   MixerArguments arguments = arguments_;
   arguments.batch = static_cast<int>(batch.size());
@@ -161,7 +168,7 @@ StatusOr<std::vector<Clip>> MixerPredictor::Predict(std::span<const Observation>
   for (size_t i = 0; i < batch.size(); ++i) {
     POISE_ASSIGN_OR_RETURN(
         Clip clip,
-        Decode(batch[i].past, future.data() + i * sizes.future * sizes.features, future_frames));
+        Decode(batch[i].past, future.data() + i * sizes.future * features, future_frames));
     futures.push_back(std::move(clip));
   }
   return futures;

@@ -17,9 +17,9 @@ namespace poise::prediction {
 /// The recommended family, without LibTorch. Everything is predicted relative to the last observed
 /// pose, in the tangent space there: a joint's rotation as a rotation vector in its own frame, the
 /// root's path in the root's frame. So nothing wraps, where a body stands and faces does not
-/// matter, and the network has to say what changes. Source: siMLPe's mixing over DCT coefficients
-/// (reference sec. 4.4), with nonlinear mixing of the pose, and on changes of rotation instead of
-/// angles.
+/// matter, and the network has to say what changes. Source: LTD's DCT coefficients and free
+/// matrices between joints (reference sec. 4.2), with perceptrons within joints as MLP-Mixer has
+/// them, and on changes of rotation instead of angles.
 class MixerPredictor : public Predictor {
  public:
   /// `weights`: parameters and buffers of MixerNet by their names.

@@ -22,8 +22,10 @@ Tensor EnsembleNet::Loss(const PoseTensors& windows) {
   Tensor total = torch::zeros({});
   for (size_t i = 0; i < members_.size(); ++i) {
     const int64_t first = static_cast<int64_t>(i) * part;
-    total = total + members_[i]->Loss({windows.rotations.slice(0, first, first + part),
-                                       windows.positions.slice(0, first, first + part)});
+    PoseTensors own{windows.rotations.slice(0, first, first + part),
+                    windows.positions.slice(0, first, first + part)};
+    if (windows.recorded.defined()) own.recorded = windows.recorded.slice(0, first, first + part);
+    total = total + members_[i]->Loss(own);
   }
   return total;
 }

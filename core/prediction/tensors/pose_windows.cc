@@ -1,5 +1,7 @@
 #include "core/prediction/tensors/pose_windows.h"
 
+#include <algorithm>
+
 namespace poise::prediction {
 
 PoseTensors ToTensors(const motion::Clip& clip) {
@@ -20,8 +22,12 @@ void PoseWindows::Add(const motion::Clip& clip, std::span<const int> starts) {
   const PoseTensors poses = ToTensors(clip);
   rotations_.push_back(poses.rotations[0]);
   positions_.push_back(poses.positions[0]);
-  for (const int start : starts) starts_.push_back(frames_ + start);
-  frames_ += clip.num_frames();
+  const int64_t end = frames_ + clip.num_frames();
+  for (const int start : starts) {
+    starts_.push_back(frames_ + start);
+    ends_.push_back(end);
+  }
+  frames_ = end;
   all_rotations_ = torch::Tensor();
 }
 
@@ -32,13 +38,19 @@ PoseTensors PoseWindows::Gather(std::span<const int64_t> windows) const {
   }
   const auto count = static_cast<int64_t>(windows.size());
   torch::Tensor frames = torch::empty({count, window_}, torch::kInt64);
+  torch::Tensor recorded = torch::ones({count, window_});
   auto frame = frames.accessor<int64_t, 2>();
+  auto is_recorded = recorded.accessor<float, 2>();
   for (int64_t i = 0; i < count; ++i) {
-    for (int64_t t = 0; t < window_; ++t) frame[i][t] = starts_[windows[i]] + t;
+    for (int64_t t = 0; t < window_; ++t) {
+      const int64_t wanted = starts_[windows[i]] + t, last = ends_[windows[i]] - 1;
+      frame[i][t] = std::min(wanted, last);
+      if (wanted > last) is_recorded[i][t] = 0;
+    }
   }
   const torch::Tensor flat = frames.flatten();
   return {all_rotations_.index_select(0, flat).view({count, window_, -1, 4}),
-          all_positions_.index_select(0, flat).view({count, window_, 3})};
+          all_positions_.index_select(0, flat).view({count, window_, 3}), recorded};
 }
 
 }  // namespace poise::prediction

@@ -11,10 +11,13 @@
 namespace poise::prediction {
 
 /// Poses as tensors, single precision.
-/// Shapes: rotations (batch, frames, joints, 4) w x y z; positions (batch, frames, 3) [m]
+/// Shapes: rotations (batch, frames, joints, 4) w x y z; positions (batch, frames, 3) [m];
+///         recorded (batch, frames) 1, or 0 after the end of a sequence, where its last pose is
+///         repeated; undefined: all are recorded
 struct PoseTensors {
   torch::Tensor rotations;
   torch::Tensor positions;
+  torch::Tensor recorded = {};
 };
 
 PoseTensors ToTensors(const motion::Clip& clip);
@@ -24,8 +27,8 @@ class PoseWindows {
  public:
   explicit PoseWindows(int window) : window_(window) {}
 
-  /// Adds the windows that begin at `starts` of the clip. Precondition: they lie inside; all clips
-  /// have equally many joints.
+  /// Adds the windows that begin at `starts` of the clip. Precondition: their first frames lie
+  /// inside; all clips have equally many joints.
   void Add(const motion::Clip& clip, std::span<const int> starts);
 
   int64_t size() const { return static_cast<int64_t>(starts_.size()); }
@@ -37,6 +40,7 @@ class PoseWindows {
   std::vector<torch::Tensor> rotations_;  // a clip each: (frames, joints, 4)
   std::vector<torch::Tensor> positions_;
   std::vector<int64_t> starts_;  // among all frames
+  std::vector<int64_t> ends_;    // of the clips that the windows are of, likewise
   mutable torch::Tensor all_rotations_, all_positions_;
 };
 

@@ -16,7 +16,8 @@ class PredictorNet : public torch::nn::Module {
 
   /// Takes from windows of the training set what is no weight: scales of inputs and losses.
   virtual void Fit(const PoseTensors& windows) = 0;
-  /// What training makes small, on windows of past_frames() + future_frames(). A scalar.
+  /// What training makes small, on windows of past_frames() + future_frames(): of their future what
+  /// was recorded. A scalar.
   virtual torch::Tensor Loss(const PoseTensors& windows) = 0;
   /// The future after the first past_frames() of the windows.
   virtual PoseTensors Predict(const PoseTensors& windows) = 0;

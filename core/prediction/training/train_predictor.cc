@@ -44,12 +44,13 @@ std::vector<int> Starts(const motion::Clip& clip, int window, int step) {
 /// two of eight actions have two thirds of the frames), then one of its variants, then a window.
 class BalancedWindows {
  public:
-  BalancedWindows(const TrainingClips& clips, int window) : windows_(window) {
+  /// `spare` of a window's frames may lie after the end of its sequence.
+  BalancedWindows(const TrainingClips& clips, int window, int spare) : windows_(window) {
     for (const std::vector<motion::Clip>& variants : clips.train) {
       std::vector<Range>& ranges = sequences_.emplace_back();
       for (const motion::Clip& clip : variants) {
         const int64_t first = windows_.size();
-        windows_.Add(clip, Starts(clip, window, 1));
+        windows_.Add(clip, Starts(clip, window - spare, 1));
         ranges.push_back({first, windows_.size() - first});
       }
     }
@@ -141,7 +142,8 @@ StatusOr<PredictorResult> TrainPredictor(const PredictorTask& task, const base::
                         .drop_first_frame = clips.sense == motion::RotationSense::kRowVectors}));
   const NetworkBody body = NetworkBody::Of(clips);
   const EulerMeasure measure = MeasureOf(clips, body);
-  const BalancedWindows train(split, window);
+  const int spare = std::max(0, config.future_frames() - config.least_future_frames);
+  const BalancedWindows train(split, window, spare);
   PoseWindows validation(window);
   for (const motion::Clip& clip : split.validation) {
     validation.Add(clip, Starts(clip, window, kValidationStep));

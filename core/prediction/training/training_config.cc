@@ -17,12 +17,14 @@ std::vector<base::Field> PredictorTraining::Fields() {
   base::Append(fields, base::Nested("trainer", trainer.Fields()));
   base::Append(fields, base::Nested("optimizer", optimizer.Fields()));
   base::Append(fields, {base::Number("validation_share", &validation_share, 0, 0.5),
+                        base::Number("least_future_frames", &least_future_frames, 1, 1000),
                         base::Flag("mirror", &mirror), base::Flag("speeds", &speeds)});
   return fields;
 }
 
 Status PredictorTraining::Validate() {
   POISE_RETURN_IF_ERROR(base::CheckRanges(Fields()));
+  POISE_RETURN_IF_ERROR(mixer.Validate());
   POISE_RETURN_IF_ERROR(trainer.Validate());
   return optimizer.Validate();
 }

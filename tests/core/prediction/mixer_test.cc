@@ -21,8 +21,13 @@ NetworkBody Body() {
 EulerMeasure Measure(int joints) { return {.counts = torch::ones({3 * joints})}; }
 
 MixerConfig SmallConfig() {
-  return {
-      .past_frames = 12, .future_frames = 6, .width = 24, .hidden = 32, .blocks = 2, .dropout = 0};
+  return {.past_frames = 12,
+          .future_frames = 6,
+          .width = 24,
+          .groups = 3,
+          .hidden = 32,
+          .blocks = 2,
+          .dropout = 0};
 }
 
 class MixerTest : public ::testing::Test {
@@ -70,7 +75,7 @@ TEST_F(MixerTest, RecommendedSizeHasAsManyParametersAsItsLayersSay) {
   MixerNet net(MixerConfig(), body, Measure(26));
   int64_t parameters = 0;
   for (const torch::Tensor& parameter : net.parameters()) parameters += parameter.numel();
-  EXPECT_EQ(parameters, 319'655);
+  EXPECT_EQ(parameters, 461'753);
 }
 
 TEST_F(MixerTest, UntrainedItHoldsTheLastPose) {
@@ -169,7 +174,7 @@ TEST_F(MixerTest, WeightsOfOtherSizesAreRefused) {
   base::TensorFile weights;
   ASSERT_TRUE(learning::AppendState(*net_, "", weights).ok());
   MixerConfig config = SmallConfig();
-  config.width = 25;
+  config.width = 27;
   EXPECT_EQ(base::ErrorReason(MixerPredictor::Create(config, Body(), weights).status()),
             "WRONG_SHAPE");
   weights.tensors.erase("scale");

@@ -21,8 +21,14 @@ motion::BenchmarkClips Swings() {
 
 PredictorTraining Small(int64_t steps) {
   PredictorTraining config;
-  config.mixer = {
-      .past_frames = 10, .future_frames = 8, .width = 32, .hidden = 48, .blocks = 2, .dropout = 0};
+  config.members = 1;
+  config.mixer = {.past_frames = 10,
+                  .future_frames = 8,
+                  .width = 32,
+                  .groups = 2,
+                  .hidden = 48,
+                  .blocks = 2,
+                  .dropout = 0};
   config.trainer = {.steps = steps, .batch_size = 16, .validate_every = steps / 2};
   config.optimizer.learning_rate = 3e-3;
   config.mirror = config.speeds = false;
@@ -129,6 +135,9 @@ TEST(TrainPredictorTest, MembersOfAnEnsembleDifferAndTheirMeanIsTheAnswer) {
 TEST(TrainPredictorTest, WrongSettingsAndCancellationAreErrors) {
   PredictorTraining config = Small(10);
   config.mixer.width = 0;
+  EXPECT_EQ(base::ErrorReason(Train(config, {}).status()), "CONFIG_VALUE_OUT_OF_RANGE");
+  config = Small(10);
+  config.mixer.groups = 5;
   EXPECT_EQ(base::ErrorReason(Train(config, {}).status()), "CONFIG_VALUE_OUT_OF_RANGE");
   config = Small(10);
   config.mixer.past_frames = 500;

@@ -35,6 +35,7 @@ constexpr char kFooter[] =
     "  poise correct kick.bvh --method ik -n 20 --effort fast --out corrected\n"
     "  poise correct *.bvh --method none --effort instant --json > report.jsonl\n"
     "  poise correct kick.bvh -n 100 --max-seconds 60 --out corrected\n"
+    "  poise correct kick.bvh --method vae --model kick -n 20\n"
     "  poise correct kick.bvh --detach          # poise jobs watch, poise jobs result\n"
     "  poise correct kick.bvh --set learning.rollouts=40 --set ik.radius_high=1.1\n\n"
     "Exit code: 0 SUCCEEDED, 8 a job FAILED, 6 CANCELLED. A variant that was not completed is no "
@@ -109,6 +110,16 @@ StatusOr<api::Job> CreateJob(const CorrectOptions& options, const Source& source
   return client.CreateJob({.spec = {.kind = "correct", .parameters = spec.ToJson()},
                            .request_id = std::move(request_id),
                            .seed = options.seed});
+}
+
+// Pins the model: the job has the network that the name meant when it was submitted.
+Status PinModel(client::Client& client, api::CorrectSpec& spec) {
+  if (spec.model.empty()) return absl::OkStatus();
+  POISE_ASSIGN_OR_RETURN(const api::Model model, client.GetModel(spec.model));
+  spec.model = model.name + "@" + model.version;
+  POISE_ASSIGN_OR_RETURN(const client::StoredArtifact stored, client.ExportModel(spec.model));
+  spec.model_artifact = stored.name;
+  return absl::OkStatus();
 }
 
 // The jobs as they are after a Ctrl-C: asked to stop, and given a moment to do so.
@@ -200,6 +211,7 @@ Status RunCorrect(CorrectOptions& options, const Console& console) {
   }
   POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
   if (follower) POISE_RETURN_IF_ERROR(MakeFolder(options.out));
+  POISE_RETURN_IF_ERROR(PinModel(*client, options.spec));
   std::vector<CorrectedClip> clips;
   for (const Source& source : sources) {
     StatusOr<api::Job> job = CreateJob(options, source, *client);
@@ -221,7 +233,7 @@ void AddSpecFlags(CLI::App& command, CorrectOptions& options) {
   command
       .add_option("--method", spec.method,
                   "none (the clip itself), or steps of augment joined by '+': ik, timewarp, noise, "
-                  "mirror")
+                  "mirror, vae")
       ->type_name("STEPS")
       ->capture_default_str();
   command
@@ -229,6 +241,8 @@ void AddSpecFlags(CLI::App& command, CorrectOptions& options) {
                   "What the clip shows, which sets where IK targets lie, as in augment")
       ->type_name("NAME")
       ->capture_default_str();
+  command.add_option("--model", spec.model, "The network of step vae: NAME or NAME@VERSION")
+      ->type_name("MODEL");
   command
       .add_option("-n,--variants", spec.variants_per_source,
                   "Variants of each file (default: 20; with --method none 1)")

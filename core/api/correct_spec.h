@@ -22,6 +22,10 @@ struct CorrectSpec {
   std::string method = "ik";
   /// Preset of the IK target region, as in AugmentSpec.
   std::string action_class = "kick";
+  /// The network of step "vae", for the record: NAME@VERSION.
+  std::string model = {};
+  /// The network itself, "artifacts/<sha256>": the same whatever the name comes to mean.
+  std::string model_artifact = {};
   /// [0 to kMaxVariants] 0: 1 with the method none, else 20. With none no more than 1.
   int variants_per_source = 0;
   /// How hard each correction tries: instant (no learning) | fast (a few rollouts) | full (a policy

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "absl/time/clock.h"
-#include "core/api/correct_spec.h"
+#include "core/artifacts/model_artifact.h"
 #include "core/base/identifier.h"
 #include "core/engine/clip_catalog.h"
 #include "core/engine/correct_checkpoint.h"
@@ -41,14 +41,18 @@ StatusOr<std::string> ReadFile(const std::filesystem::path& path) {
   return base::NotFound("INPUT_NOT_FOUND", "", fmt::format("cannot read {}", path.string()));
 }
 
+// `field` is the one that names the artifact.
+StatusOr<std::string> ReadInput(const std::string& artifact, const std::string& field,
+                                const jobs::RunInput& input) {
+  const auto path = input.inputs.find(artifact);
+  if (path != input.inputs.end()) return ReadFile(path->second);
+  return base::NotFound("INPUT_NOT_FOUND", field,
+                        fmt::format("'{}' is not among the inputs", artifact));
+}
+
 StatusOr<CatalogClip> ReadSource(const api::ClipSource& source, const jobs::RunInput& input) {
   const auto& stored = std::get<api::StoredClip>(source.clip);
-  const auto path = input.inputs.find(stored.artifact);
-  if (path == input.inputs.end()) {
-    return base::NotFound("INPUT_NOT_FOUND", "artifact",
-                          fmt::format("'{}' is not among the inputs", stored.artifact));
-  }
-  POISE_ASSIGN_OR_RETURN(std::string data, ReadFile(path->second));
+  POISE_ASSIGN_OR_RETURN(std::string data, ReadInput(stored.artifact, "artifact", input));
   return DecodeSource({.name = stored.name,
                        .data = std::move(data),
                        .format = stored.format,
@@ -131,13 +135,27 @@ StatusOr<jobs::RunOutput> Collect(const pipeline::CorrectFlow& flow,
 
 }  // namespace
 
+StatusOr<pipeline::MotionDecoderPtr> CorrectRunner::Decoder(const api::CorrectSpec& spec,
+                                                            const jobs::RunInput& input) const {
+  if (spec.model_artifact.empty()) return pipeline::MotionDecoderPtr();
+  if (!load_decoder_) {
+    return base::FailedPrecondition("NO_NETWORKS", "model", "this program evaluates no networks");
+  }
+  POISE_ASSIGN_OR_RETURN(const std::string bytes,
+                         ReadInput(spec.model_artifact, "model_artifact", input));
+  StatusOr<artifacts::ModelArtifact> model = artifacts::UnpackModel(bytes, spec.model);
+  if (!model.ok()) return base::Annotate(model.status(), "model", "model_artifact");
+  return load_decoder_(*model);
+}
+
 StatusOr<jobs::RunOutput> CorrectRunner::Run(const jobs::RunInput& input,
                                              const jobs::JobContext& context) {
   POISE_ASSIGN_OR_RETURN(const api::CorrectSpec spec, SpecOf(input.spec.parameters));
   POISE_ASSIGN_OR_RETURN(Sources sources, ReadSources(spec, input));
+  POISE_ASSIGN_OR_RETURN(pipeline::MotionDecoderPtr decoder, Decoder(spec, input));
   POISE_ASSIGN_OR_RETURN(const auto flow,
                          pipeline::CorrectFlow::Create(spec, input.seed, std::move(sources.clips),
-                                                       {.make_learner = make_learner_}));
+                                                       {make_learner_, std::move(decoder)}));
   CorrectState state = CorrectState::Empty(*flow);
   if (input.checkpoint) {
     POISE_ASSIGN_OR_RETURN(state, DecodeCheckpoint(*input.checkpoint, std::move(state)));
@@ -180,7 +198,7 @@ Status ValidateCorrect(const base::Json& parameters) { return SpecOf(parameters)
 
 bool CorrectNeedsTorch(const base::Json& parameters) {
   const StatusOr<api::CorrectSpec> spec = api::CorrectSpec::FromJson(parameters);
-  return spec.ok() && spec->effort == "full";
+  return spec.ok() && (spec->effort == "full" || !spec->model_artifact.empty());
 }
 
 }  // namespace poise::engine

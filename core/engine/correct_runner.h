@@ -4,7 +4,9 @@
 #include <memory>
 #include <utility>
 
+#include "core/api/correct_spec.h"
 #include "core/base/json.h"
+#include "core/engine/decoder_cache.h"
 #include "core/pipeline/correct.h"
 #include "core/runtime/jobs/job_runner.h"
 
@@ -17,21 +19,28 @@ namespace poise::engine {
 /// CorrectRun; kNotFound INPUT_NOT_FOUND; kDataLoss CORRUPT_CHECKPOINT.
 class CorrectRunner : public jobs::JobRunner {
  public:
-  /// Without `make_learner` the effort full is refused: kFailedPrecondition NO_NETWORKS.
-  explicit CorrectRunner(pipeline::PolicyLearnerFactory make_learner = {})
-      : make_learner_(std::move(make_learner)) {}
+  /// Without `make_learner` the effort full is refused, without `load_decoder` the step "vae":
+  /// kFailedPrecondition NO_NETWORKS.
+  explicit CorrectRunner(pipeline::PolicyLearnerFactory make_learner = {},
+                         DecoderLoader load_decoder = {})
+      : make_learner_(std::move(make_learner)), load_decoder_(std::move(load_decoder)) {}
 
   StatusOr<jobs::RunOutput> Run(const jobs::RunInput& input,
                                 const jobs::JobContext& context) override;
 
  private:
+  // The network that the spec names; none where it names none.
+  StatusOr<pipeline::MotionDecoderPtr> Decoder(const api::CorrectSpec& spec,
+                                               const jobs::RunInput& input) const;
+
   const pipeline::PolicyLearnerFactory make_learner_;
+  const DecoderLoader load_decoder_;
 };
 
-/// For the flow table. The runner learns no policies.
+/// For the flow table. The runner has no networks.
 std::unique_ptr<jobs::JobRunner> MakeCorrectRunner();
 Status ValidateCorrect(const base::Json& parameters);
-/// Whether a policy is to be learned.
+/// Whether a policy is to be learned, or a network makes the variants.
 bool CorrectNeedsTorch(const base::Json& parameters);
 
 }  // namespace poise::engine

@@ -87,7 +87,8 @@ Status CheckCorrect(const api::CorrectSpec& spec) {
   const api::AugmentSpec augment = AugmentSpecOf(spec, /*seed=*/0);
   return synthesis::CreateMethod(augment.method, {.action_class = augment.action_class,
                                                   .preset = augment.preset,
-                                                  .overrides = augment.overrides})
+                                                  .overrides = augment.overrides,
+                                                  .check_only = !spec.model_artifact.empty()})
       .status();
 }
 

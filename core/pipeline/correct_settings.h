@@ -29,8 +29,8 @@ inline constexpr char kNoMethod[] = "none";
 api::AugmentSpec AugmentSpecOf(const api::CorrectSpec& spec, uint64_t seed);
 
 /// Everything of a CorrectSpec that can be checked without its clips.
-/// Errors: those of CorrectSpec::Validate; kInvalidArgument UNKNOWN_METHOD, UNKNOWN_ACTION_CLASS,
-/// UNKNOWN_CONFIG_KEY and the other config errors.
+/// Errors: those of CorrectSpec::Validate; kInvalidArgument UNKNOWN_METHOD, MISSING_MODEL,
+/// UNKNOWN_ACTION_CLASS, UNKNOWN_CONFIG_KEY and the other config errors.
 Status CheckCorrect(const api::CorrectSpec& spec);
 
 /// The authors' controller without learning, for the same body mass.

@@ -50,6 +50,7 @@ StatusOr<SynthesizerPtr> CreateVae(const SynthesisOptions& options) {
   LatentSamplerConfig config;
   POISE_RETURN_IF_ERROR(
       base::ApplyOverrides(options.overrides, base::Nested("vae", config.Fields())));
+  if (options.check_only) return SynthesizerPtr();
   if (options.decoder == nullptr) {
     return base::InvalidArgument("MISSING_MODEL", "model",
                                  "method 'vae' needs a model: say which (NAME or NAME@VERSION)");

@@ -20,6 +20,8 @@ struct SynthesisOptions {
   base::Overrides overrides =
       {};  ///< {"ik.angle": "0.5"}: each key begins with the step it belongs to
   std::shared_ptr<const MotionDecoder> decoder = nullptr;  ///< what step "vae" needs
+  /// The decoder comes later: settings are checked, and step "vae" makes no synthesizer.
+  bool check_only = false;
 };
 
 /// One step of a method, ready to bind.
@@ -35,8 +37,8 @@ std::vector<std::string> MethodStepNames();
 
 /// Builds the steps of a method: names joined by '+' ("ik+timewarp"), applied left to right.
 /// Errors: kInvalidArgument UNKNOWN_METHOD (naming the known steps and the nearest),
-/// TOO_MANY_STEPS, MISSING_MODEL (step "vae" without a decoder), UNKNOWN_ACTION_CLASS,
-/// UNKNOWN_PRESET, UNKNOWN_CONFIG_KEY and the other config errors.
+/// TOO_MANY_STEPS, MISSING_MODEL (step "vae" without a decoder, unless only checked),
+/// UNKNOWN_ACTION_CLASS, UNKNOWN_PRESET, UNKNOWN_CONFIG_KEY and the other config errors.
 StatusOr<std::vector<MethodStep>> CreateMethod(std::string_view method,
                                                const SynthesisOptions& options);
 

@@ -28,6 +28,10 @@ TEST(FlowTableTest, OnlyJobsThatLearnNeedLibTorch) {
   EXPECT_FALSE(correct("instant"));
   EXPECT_FALSE(correct("fast"));
   EXPECT_TRUE(correct("full"));
+  EXPECT_TRUE(NeedsTorch(
+      {.kind = "correct",
+       .parameters = {
+           {"sources", {source}}, {"method", "vae"}, {"model_artifact", "artifacts/1"}}}));
   EXPECT_FALSE(NeedsTorch({.kind = "selftest", .parameters = {}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_vae", .parameters = {}}));
   EXPECT_FALSE(NeedsTorch({.kind = "nonsense", .parameters = {}}));

@@ -30,6 +30,8 @@ TEST(CorrectionSchemaTest, ASpecWithEveryFieldGoesBothWays) {
                            .skeleton_data = ":version",
                            .hints = {.unit_m = 0.01, .up = motion::UpAxis::kZ, .frame_rate = 60}},
        .joint_roles = {{"left_hip", "Hip_L"}}}};
+  spec.model = "kick@2";
+  spec.model_artifact = "artifacts/34";
   spec.variants_per_source = 3;
   spec.effort = "full";
   spec.residual = "rfc";

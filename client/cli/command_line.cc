@@ -79,6 +79,16 @@ void AddJsonFlag(CLI::App& app) {
   app.add_flag("--json", description);
 }
 
+void AddServerFlag(CLI::App& app, std::string& address) {
+  app.add_option("--server", address, "HOST:PORT of the server; also from POISE_SERVER")
+      ->type_name("ADDRESS")
+      ->capture_default_str();
+}
+
+void AddTimeoutFlag(CLI::App& app, double& seconds) {
+  app.add_option("--timeout", seconds, "Give up after this many seconds")->type_name("SECONDS");
+}
+
 StatusOr<bool> ParseCommandLine(CLI::App& app, int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);

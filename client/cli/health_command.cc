@@ -40,10 +40,7 @@ Command AddHealthCommand(CLI::App& app, const Console& console) {
   options->timeout = options->connect_timeout;
   CLI::App* command = app.add_subcommand("health", kDescription);
   command->footer(kFooter);
-  command
-      ->add_option("--server", options->server, "HOST:PORT of the server; also from POISE_SERVER")
-      ->type_name("ADDRESS")
-      ->capture_default_str();
+  AddServerFlag(*command, options->server);
   AddJsonFlag(*command);
   return {command, [options, &console] { return RunHealth(*options, console); }};
 }

@@ -108,13 +108,8 @@ Command AddPredictCommand(CLI::App& app, const Console& console) {
   command->add_option("FILE", options->file, "Motion file")->type_name("")->required();
   AddQueryFlags(*command, *options);
   command->add_option("--out", options->out, "BVH file for the future")->type_name("FILE");
-  command
-      ->add_option("--server", options->connection.server,
-                   "HOST:PORT of the server; also from POISE_SERVER")
-      ->type_name("ADDRESS")
-      ->capture_default_str();
-  command->add_option("--timeout", options->timeout_s, "Give up after this many seconds")
-      ->type_name("SECONDS");
+  AddServerFlag(*command, options->connection.server);
+  AddTimeoutFlag(*command, options->timeout_s);
   AddReaderFlags(*command, options->reader);
   AddJsonFlag(*command);
   return {command, [options, &console] { return RunPredict(*options, console); }};

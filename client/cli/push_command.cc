@@ -174,13 +174,8 @@ Command AddPushCommand(CLI::App& app, const Console& console) {
   command->add_option("--out", options->out, "Folder for the files, made when absent")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command
-      ->add_option("--server", options->connection.server,
-                   "HOST:PORT of the server; also from POISE_SERVER")
-      ->type_name("ADDRESS")
-      ->capture_default_str();
-  command->add_option("--timeout", options->timeout_s, "Give up after this many seconds")
-      ->type_name("SECONDS");
+  AddServerFlag(*command, options->connection.server);
+  AddTimeoutFlag(*command, options->timeout_s);
   AddJsonFlag(*command);
   return {command, [options, &console] { return RunPush(*options, console); }};
 }

@@ -8,9 +8,7 @@
 namespace poise::cli {
 
 void AddConnectionFlags(CLI::App& command, client::ClientOptions& options) {
-  command.add_option("--server", options.server, "HOST:PORT of the server; also from POISE_SERVER")
-      ->type_name("ADDRESS")
-      ->capture_default_str();
+  AddServerFlag(command, options.server);
   command.add_option("--tenant", options.tenant, "Whose jobs; also from POISE_TENANT")
       ->type_name("NAME");
   AddJsonFlag(command);

@@ -4,12 +4,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 #include "absl/time/clock.h"
 #include "core/motion/io/clip_file.h"
 #include "tests/client/cli/poise_program.h"
 #include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 
 namespace poise::testing {
 namespace {
@@ -18,41 +18,25 @@ using ::testing::HasSubstr;
 
 class CorrectCommandTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    server_ = new Process({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--workers", "2",
-                           "--lame-duck-seconds", "0", "--data-dir", folder_->path() / "data"});
-    ASSERT_TRUE(server_->WaitForOutput("\n", absl::Seconds(60))) << server_->ErrorOutput();
-    const std::string ready = server_->Output();
-    address_ = base::Json::parse(ready.substr(0, ready.find('\n'))).at("address");
-  }
-  static void TearDownTestSuite() {
-    server_->Signal(SIGTERM);
-    EXPECT_EQ(server_->Wait(), 0);
-    delete server_;
-    delete folder_;
-  }
+  static void SetUpTestSuite() { server_ = std::make_unique<PoiseServer>(/*workers=*/2); }
+  static void TearDownTestSuite() { server_.reset(); }
 
   static std::string Sample(const std::string& name) {
     return std::string(POISE_SAMPLES_DIR) + "/" + name + ".bvh";
   }
-  static std::string Path(const std::string& name) { return (folder_->path() / name).string(); }
+  static std::string Path(const std::string& name) { return server_->Path(name); }
   static PoiseRun Poise(std::vector<std::string> arguments) {
-    return RunPoise(std::move(arguments), {{"POISE_SERVER", address_}});
+    return server_->Poise(std::move(arguments));
   }
   static std::string ReadAll(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(stream), {});
   }
 
-  static TemporaryFolder* folder_;
-  static Process* server_;
-  static std::string address_;
+  static std::unique_ptr<PoiseServer> server_;
 };
 
-TemporaryFolder* CorrectCommandTest::folder_ = nullptr;
-Process* CorrectCommandTest::server_ = nullptr;
-std::string CorrectCommandTest::address_;
+std::unique_ptr<PoiseServer> CorrectCommandTest::server_;
 
 TEST_F(CorrectCommandTest, EveryClipIsAJobAJsonLineAndItsFiles) {
   const PoiseRun run =
@@ -165,7 +149,7 @@ TEST_F(CorrectCommandTest, TimeThatIsUpIsSaid) {
 TEST_F(CorrectCommandTest, CtrlCCancelsTheJob) {
   Process process({ProgramPath("poise"), "correct", Sample("kick"), "-n", "50", "--set",
                    "learning.rollouts=1000", "--out", Path("never"), "--json"},
-                  {{"POISE_SERVER", address_}});
+                  {{"POISE_SERVER", server_->address()}});
   const auto running = [&] {
     const PoiseRun list =
         Poise({"jobs", "list", "--state", "RUNNING", "--kind", "correct", "--json"});

@@ -1,6 +1,5 @@
 // `poise data` and `poise models` against a real poised.
 #include <gmock/gmock.h>
-#include <signal.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,8 +10,6 @@
 #include "core/motion/io/clip_file.h"
 #include "tests/client/cli/poise_program.h"
 #include "tests/support/data_files.h"
-#include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/test_clips.h"
 
 namespace poise::testing {
@@ -23,27 +20,16 @@ using ::testing::HasSubstr;
 
 class ModelsCommandTest : public ::testing::Test {
  protected:
-  ModelsCommandTest()
-      : server_({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--workers", "1",
-                 "--lame-duck-seconds", "0", "--data-dir", (folder_.path() / "data").string()}) {
-    EXPECT_TRUE(server_.WaitForOutput("\n", absl::Seconds(60))) << server_.ErrorOutput();
-    const std::string ready = server_.Output();
-    address_ = base::Json::parse(ready.substr(0, ready.find('\n'))).at("address");
-  }
-  ~ModelsCommandTest() override {
-    server_.Signal(SIGTERM);
-    EXPECT_EQ(server_.Wait(), 0);
-  }
-
   PoiseRun Poise(std::vector<std::string> arguments) {
     arguments.push_back("--json");
-    return RunPoise(std::move(arguments), {{"POISE_SERVER", address_}});
+    return server_.Poise(std::move(arguments));
   }
-  std::string Path(const std::string& below) const { return folder_.path() / below; }
+  static base::Json ReadJson(const std::string& path) {
+    return base::Json::parse(std::ifstream(path), nullptr, /*allow_exceptions=*/false);
+  }
+  std::string Path(const std::string& below) const { return server_.Path(below); }
 
-  TemporaryFolder folder_;
-  Process server_;
-  std::string address_;
+  PoiseServer server_{/*workers=*/1};
 };
 
 TEST_F(ModelsCommandTest, AFolderOfClipsBecomesADataSet) {
@@ -101,6 +87,17 @@ TEST_F(ModelsCommandTest, ANetworkIsTrainedByAJobAndMakesMotions) {
                                "--model", "swing", "-n", "3", "--out", Path("made")});
   ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
   EXPECT_EQ(made.JsonLines().size(), 3u);
+  const PoiseRun corrected =
+      Poise({"correct", Path("clips/swing/0.bvh"), "--method", "vae", "--model", "swing", "-n", "2",
+             "--effort", "instant", "--out", Path("corrected")});
+  ASSERT_EQ(corrected.exit_code, 0) << corrected.out << corrected.err;
+  EXPECT_EQ(corrected.JsonLines().back()["variants"].size(), 2u);
+  const base::Json manifest = ReadJson(Path("corrected/0.json"));
+  EXPECT_EQ(manifest["parameters"]["model"], "swing@1") << "pinned at submission";
+  const PoiseRun nameless =
+      Poise({"correct", Path("clips/swing/0.bvh"), "--method", "vae", "--out", Path("none")});
+  EXPECT_EQ(nameless.exit_code, 2);
+  EXPECT_EQ(nameless.Error()["reason"], "MISSING_MODEL");
   const PoiseRun without = Poise({"augment", Path("clips/swing/0.bvh"), "--method", "vae"});
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_EQ(without.Error()["reason"], "MISSING_MODEL");

@@ -1,8 +1,10 @@
 #include "tests/client/cli/poise_program.h"
 
-#include <sstream>
+#include <gtest/gtest.h>
+#include <signal.h>
 
-#include "tests/support/process.h"
+#include <sstream>
+#include <utility>
 
 namespace poise::testing {
 
@@ -22,6 +24,23 @@ PoiseRun RunPoise(std::vector<std::string> arguments,
   Process process(arguments, environment);
   const int exit_code = process.Wait().value_or(-1);
   return {.exit_code = exit_code, .out = process.Output(), .err = process.ErrorOutput()};
+}
+
+PoiseServer::PoiseServer(int workers)
+    : process_({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--workers",
+                std::to_string(workers), "--lame-duck-seconds", "0", "--data-dir", Path("data")}) {
+  EXPECT_TRUE(process_.WaitForOutput("\n", absl::Seconds(60))) << process_.ErrorOutput();
+  const std::string ready = process_.Output();
+  address_ = base::Json::parse(ready.substr(0, ready.find('\n'))).at("address");
+}
+
+PoiseServer::~PoiseServer() {
+  process_.Signal(SIGTERM);
+  EXPECT_EQ(process_.Wait(), 0);
+}
+
+PoiseRun PoiseServer::Poise(std::vector<std::string> arguments) const {
+  return RunPoise(std::move(arguments), {{"POISE_SERVER", address_}});
 }
 
 }  // namespace poise::testing

@@ -1,12 +1,11 @@
 // `poise push` against a real server.
 #include <gmock/gmock.h>
-#include <signal.h>
 
 #include <filesystem>
+#include <memory>
 
 #include "core/motion/io/clip_file.h"
 #include "tests/client/cli/poise_program.h"
-#include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
 namespace poise::testing {
@@ -16,37 +15,21 @@ namespace fs = std::filesystem;
 
 class PushCommandTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    data_ = new TemporaryFolder;
-    server_ = new Process({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--workers", "0",
-                           "--lame-duck-seconds", "0", "--data-dir", data_->path() / "data"});
-    ASSERT_TRUE(server_->WaitForOutput("\n", absl::Seconds(60))) << server_->ErrorOutput();
-    const std::string ready = server_->Output();
-    address_ = base::Json::parse(ready.substr(0, ready.find('\n'))).at("address");
-  }
-  static void TearDownTestSuite() {
-    server_->Signal(SIGTERM);
-    EXPECT_EQ(server_->Wait(), 0);
-    delete server_;
-    delete data_;
-  }
+  static void SetUpTestSuite() { server_ = std::make_unique<PoiseServer>(/*workers=*/0); }
+  static void TearDownTestSuite() { server_.reset(); }
 
   PoiseRun Push(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "push");
     arguments.push_back("--json");
-    return RunPoise(std::move(arguments), {{"POISE_SERVER", address_}});
+    return server_->Poise(std::move(arguments));
   }
   std::string Folder(const std::string& name) { return (folder_.path() / name).string(); }
 
   TemporaryFolder folder_;
-  static TemporaryFolder* data_;
-  static Process* server_;
-  static std::string address_;
+  static std::unique_ptr<PoiseServer> server_;
 };
 
-TemporaryFolder* PushCommandTest::data_ = nullptr;
-Process* PushCommandTest::server_ = nullptr;
-std::string PushCommandTest::address_;
+std::unique_ptr<PoiseServer> PushCommandTest::server_;
 
 TEST_F(PushCommandTest, ALineOfTenIsForecastAndWritten) {
   const PoiseRun run = Push({"--people", "line:10", "--push", "0:strong", "--out", Folder("line")});

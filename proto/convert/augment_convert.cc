@@ -1,11 +1,9 @@
 #include "proto/convert/augment_convert.h"
 
 #include <fmt/format.h>
-#include <grpc/slice.h>
 
 #include <utility>
 
-#include "proto/convert/bytes_field.h"
 #include "proto/convert/clip_convert.h"
 #include "proto/convert/plausibility_convert.h"
 #include "proto/convert/utf8.h"
@@ -26,22 +24,6 @@ StatusOr<api::AugmentSpec> FromScalars(const v1::AugmentRequest& request) {
   spec.with_plausibility = !request.skip_plausibility();
   POISE_ASSIGN_OR_RETURN(spec.output, convert::FromProto(request.output()));
   return spec;
-}
-
-// The fields on both sides of the result, as they follow each other on the wire.
-v1::AugmentResponse BeforeResult(const api::DeliveredVariant& variant) {
-  v1::AugmentResponse message;
-  message.set_source_index(variant.source_index);
-  message.set_index(variant.index);
-  message.set_seed(variant.seed);
-  return message;
-}
-
-v1::AugmentResponse AfterResult(const api::DeliveredVariant& variant) {
-  v1::AugmentResponse message;
-  if (variant.ik) *message.mutable_ik() = ToProto(*variant.ik);
-  if (variant.plausibility) *message.mutable_plausibility() = ToProto(*variant.plausibility);
-  return message;
 }
 
 }  // namespace
@@ -127,7 +109,10 @@ StatusOr<api::IkOutcome> FromProto(const v1::IkOutcome& outcome) {
 }
 
 v1::AugmentResponse ToProto(const api::DeliveredVariant& variant) {
-  v1::AugmentResponse message = BeforeResult(variant);
+  v1::AugmentResponse message;
+  message.set_source_index(variant.source_index);
+  message.set_index(variant.index);
+  message.set_seed(variant.seed);
   if (const auto* clip = std::get_if<motion::Clip>(&variant.result)) {
     *message.mutable_clip() = ToProto(*clip);
   } else if (const auto* file = std::get_if<api::EncodedClip>(&variant.result)) {
@@ -135,22 +120,9 @@ v1::AugmentResponse ToProto(const api::DeliveredVariant& variant) {
   } else {
     message.set_artifact(std::get<std::string>(variant.result));
   }
-  message.MergeFrom(AfterResult(variant));
+  if (variant.ik) *message.mutable_ik() = ToProto(*variant.ik);
+  if (variant.plausibility) *message.mutable_plausibility() = ToProto(*variant.plausibility);
   return message;
-}
-
-grpc::ByteBuffer SerializeArrays(const api::DeliveredVariant& variant) {
-  constexpr int kField = v1::AugmentResponse::kClipFieldNumber;
-  const v1::AugmentResponse before = BeforeResult(variant);
-  const v1::AugmentResponse after = AfterResult(variant);
-  const ClipBytes bytes(std::get<motion::Clip>(variant.result));
-  grpc_slice slice = grpc_slice_malloc(before.ByteSizeLong() +
-                                       BytesFieldSize(kField, bytes.size()) + after.ByteSizeLong());
-  uint8_t* out = before.SerializeWithCachedSizesToArray(GRPC_SLICE_START_PTR(slice));
-  out = bytes.WriteTo(WriteBytesFieldHead(kField, bytes.size(), out));
-  after.SerializeWithCachedSizesToArray(out);
-  const grpc::Slice owner(slice, grpc::Slice::STEAL_REF);
-  return grpc::ByteBuffer(&owner, 1);
 }
 
 StatusOr<api::DeliveredVariant> FromProto(const v1::AugmentResponse& response) {

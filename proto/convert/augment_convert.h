@@ -1,8 +1,6 @@
 #ifndef POISE_PROTO_CONVERT_AUGMENT_CONVERT_H_
 #define POISE_PROTO_CONVERT_AUGMENT_CONVERT_H_
 
-#include <grpcpp/support/byte_buffer.h>
-
 #include "core/api/augment_spec.h"
 #include "core/base/status.h"
 #include "poise/v1/augmentation.pb.h"
@@ -23,8 +21,6 @@ v1::IkOutcome ToProto(const api::IkOutcome& outcome);
 StatusOr<api::IkOutcome> FromProto(const v1::IkOutcome& outcome);
 
 v1::AugmentResponse ToProto(const api::DeliveredVariant& variant);
-/// The bytes of ToProto(variant), where the result is a clip: its arrays are written only once.
-grpc::ByteBuffer SerializeArrays(const api::DeliveredVariant& variant);
 /// Errors: kInvalidArgument EMPTY_RESULT, those of the clip and of the outcome.
 StatusOr<api::DeliveredVariant> FromProto(const v1::AugmentResponse& response);
 

@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
-#include "proto/convert/bytes_field.h"
 #include "proto/convert/utf8.h"
 
 namespace poise::convert {
@@ -24,52 +21,9 @@ Status WrongShape(const std::string& clip, const char* field, int64_t got,
 }
 
 // Room for `count` more numbers, which the caller writes.
-uint8_t* Append(size_t count, FloatArray& numbers) {
+float* Append(size_t count, FloatArray& numbers) {
   numbers.Reserve(numbers.size() + static_cast<int>(count));
-  return reinterpret_cast<uint8_t*>(numbers.AddNAlreadyReserved(static_cast<int>(count)));
-}
-
-size_t PositionBytes(const motion::Clip& clip) {
-  return 3 * sizeof(float) * clip.root_positions().size();
-}
-
-size_t RotationBytes(const motion::Clip& clip) {
-  return 4 * sizeof(float) * clip.rotations().size();
-}
-
-// The numbers as they lie on the wire and in memory, at any address.
-static_assert(std::endian::native == std::endian::little);
-
-template <size_t n>
-uint8_t* WriteFloats(const float (&numbers)[n], uint8_t* out) {
-  std::memcpy(out, numbers, sizeof(numbers));
-  return out + sizeof(numbers);
-}
-
-uint8_t* WritePositions(const motion::Clip& clip, uint8_t* out) {
-  for (const Vec3& value : clip.root_positions()) {
-    out = WriteFloats({static_cast<float>(value.x()), static_cast<float>(value.y()),
-                       static_cast<float>(value.z())},
-                      out);
-  }
-  return out;
-}
-
-uint8_t* WriteRotations(const motion::Clip& clip, uint8_t* out) {
-  for (const Quat& value : clip.rotations()) {
-    out = WriteFloats({static_cast<float>(value.w()), static_cast<float>(value.x()),
-                       static_cast<float>(value.y()), static_cast<float>(value.z())},
-                      out);
-  }
-  return out;
-}
-
-v1::Clip WithoutArrays(const motion::Clip& clip) {
-  v1::Clip message;
-  message.set_name(ValidUtf8(clip.name()));
-  *message.mutable_skeleton() = ToProto(*clip.skeleton());
-  message.set_frame_rate(clip.frame_rate());
-  return message;
+  return numbers.AddNAlreadyReserved(static_cast<int>(count));
 }
 
 // Fields that EncodedClip and StoredClip share.
@@ -132,29 +86,26 @@ StatusOr<motion::SkeletonPtr> FromProto(const v1::Skeleton& skeleton) {
 }
 
 void WriteArrays(const motion::Clip& clip, FloatArray& root_positions, FloatArray& rotations) {
-  WritePositions(clip, Append(3 * clip.root_positions().size(), root_positions));
-  WriteRotations(clip, Append(4 * clip.rotations().size(), rotations));
+  float* position = Append(3 * clip.root_positions().size(), root_positions);
+  for (const Vec3& value : clip.root_positions()) {
+    for (int axis = 0; axis < 3; ++axis) *position++ = static_cast<float>(value[axis]);
+  }
+  float* rotation = Append(4 * clip.rotations().size(), rotations);
+  for (const Quat& value : clip.rotations()) {
+    *rotation++ = static_cast<float>(value.w());
+    *rotation++ = static_cast<float>(value.x());
+    *rotation++ = static_cast<float>(value.y());
+    *rotation++ = static_cast<float>(value.z());
+  }
 }
 
 v1::Clip ToProto(const motion::Clip& clip) {
-  v1::Clip message = WithoutArrays(clip);
+  v1::Clip message;
+  message.set_name(ValidUtf8(clip.name()));
+  *message.mutable_skeleton() = ToProto(*clip.skeleton());
+  message.set_frame_rate(clip.frame_rate());
   WriteArrays(clip, *message.mutable_root_positions(), *message.mutable_rotations());
   return message;
-}
-
-ClipBytes::ClipBytes(const motion::Clip& clip)
-    : clip_(clip),
-      rest_(WithoutArrays(clip)),
-      size_(rest_.ByteSizeLong() +
-            BytesFieldSize(v1::Clip::kRootPositionsFieldNumber, PositionBytes(clip)) +
-            BytesFieldSize(v1::Clip::kRotationsFieldNumber, RotationBytes(clip))) {}
-
-uint8_t* ClipBytes::WriteTo(uint8_t* out) const {
-  out = rest_.SerializeWithCachedSizesToArray(out);
-  out = WriteBytesFieldHead(v1::Clip::kRootPositionsFieldNumber, PositionBytes(clip_), out);
-  out = WritePositions(clip_, out);
-  out = WriteBytesFieldHead(v1::Clip::kRotationsFieldNumber, RotationBytes(clip_), out);
-  return WriteRotations(clip_, out);
 }
 
 StatusOr<motion::Clip> ReadArrays(ArraysOf clip, const FloatArray& root_positions,

@@ -33,23 +33,6 @@ StatusOr<motion::Clip> ReadArrays(ArraysOf clip, const FloatArray& root_position
                                   const FloatArray& rotation_numbers);
 
 v1::Clip ToProto(const motion::Clip& clip);
-
-/// The bytes of ToProto(clip), made without that message: the arrays, nearly all of it, are written
-/// once. The clip must outlive this and have a frame.
-class ClipBytes {
- public:
-  explicit ClipBytes(const motion::Clip& clip);
-
-  size_t size() const { return size_; }
-  /// Writes size() bytes; returns their end.
-  uint8_t* WriteTo(uint8_t* out) const;
-
- private:
-  const motion::Clip& clip_;
-  const v1::Clip rest_;
-  const size_t size_;
-};
-
 /// Errors: kInvalidArgument WRONG_SHAPE, those of Skeleton::Create and Clip::Create.
 StatusOr<motion::Clip> FromProto(const v1::Clip& clip);
 

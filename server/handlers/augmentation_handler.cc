@@ -38,9 +38,7 @@ class AugmentStream : public MessageStream {
   StatusOr<grpc::ByteBuffer> Make(int64_t ordinal, const base::RunContext& context) override {
     POISE_ASSIGN_OR_RETURN(const api::DeliveredVariant variant, run_->Make(ordinal, context));
     variants_.Increment();
-    return std::holds_alternative<motion::Clip>(variant.result)
-               ? convert::SerializeArrays(variant)
-               : Serialize(convert::ToProto(variant));
+    return Serialize(convert::ToProto(variant));
   }
 
   grpc::ByteBuffer request_;

@@ -2,10 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "proto/convert/clip_convert.h"
 #include "tests/support/test_clips.h"
 
@@ -82,35 +78,23 @@ TEST(AugmentConvertTest, EachBadRequestHasItsReason) {
             "UNKNOWN_OUTPUT");
 }
 
-api::DeliveredVariant FullVariant(motion::Clip clip) {
-  return {.source_index = 3,
-          .index = 5,
-          .seed = 77,
-          .result = std::move(clip),
-          .ik = api::IkOutcome{.end_effector = motion::JointRole::kRightAnkle,
-                               .keyframe = 2,
-                               .target = {1, 2, 3},
-                               .reached_error_m = 0.5,
-                               .reachable = true},
-          .plausibility = motion::Plausibility{.foot_skate_mps = 1,
-                                               .penetration_mean_m = 2,
-                                               .penetration_max_m = 3,
-                                               .float_mean_m = 4,
-                                               .self_penetration_max_m = 5,
-                                               .acceleration_rms_mps2 = 6,
-                                               .jerk_rms_mps3 = 7}};
-}
-
-std::string Bytes(const grpc::ByteBuffer& buffer) {
-  std::vector<grpc::Slice> slices;
-  EXPECT_TRUE(buffer.Dump(&slices).ok());
-  std::string bytes;
-  for (const grpc::Slice& slice : slices) bytes.append(slice.begin(), slice.end());
-  return bytes;
-}
-
 TEST(AugmentConvertTest, DeliveredVariantSurvivesTheRoundTrip) {
-  api::DeliveredVariant variant = FullVariant(poise::testing::SwingingClip(4));
+  api::DeliveredVariant variant{.source_index = 3,
+                                .index = 5,
+                                .seed = 77,
+                                .result = poise::testing::SwingingClip(4),
+                                .ik = api::IkOutcome{.end_effector = motion::JointRole::kRightAnkle,
+                                                     .keyframe = 2,
+                                                     .target = {1, 2, 3},
+                                                     .reached_error_m = 0.5,
+                                                     .reachable = true},
+                                .plausibility = motion::Plausibility{.foot_skate_mps = 1,
+                                                                     .penetration_mean_m = 2,
+                                                                     .penetration_max_m = 3,
+                                                                     .float_mean_m = 4,
+                                                                     .self_penetration_max_m = 5,
+                                                                     .acceleration_rms_mps2 = 6,
+                                                                     .jerk_rms_mps3 = 7}};
   const StatusOr<api::DeliveredVariant> back = FromProto(ToProto(variant));
   ASSERT_TRUE(back.ok()) << back.status();
   EXPECT_EQ(back->source_index, 3);
@@ -135,20 +119,6 @@ TEST(AugmentConvertTest, DeliveredVariantSurvivesTheRoundTrip) {
   variant.result = std::string("artifacts/ab");
   EXPECT_EQ(std::get<std::string>(FromProto(ToProto(variant))->result), "artifacts/ab");
   EXPECT_EQ(base::ErrorReason(FromProto(v1::AugmentResponse()).status()), "EMPTY_RESULT");
-}
-
-// One, two and three bytes for the lengths.
-TEST(AugmentConvertTest, ArraysAreSerializedAsProtobufDoes) {
-  for (const int frames : {1, 4, 40, 400}) {
-    api::DeliveredVariant variant = FullVariant(poise::testing::SwingingClip(frames));
-    EXPECT_EQ(Bytes(SerializeArrays(variant)), ToProto(variant).SerializeAsString()) << frames;
-    // Defaults are not on the wire.
-    variant.source_index = variant.index = 0;
-    variant.seed = 0;
-    variant.ik.reset();
-    variant.plausibility.reset();
-    EXPECT_EQ(Bytes(SerializeArrays(variant)), ToProto(variant).SerializeAsString()) << frames;
-  }
 }
 
 }  // namespace

@@ -48,10 +48,12 @@ function(poise_program name)
 endfunction()
 
 # poise_test(NAME SOURCES ... [DEPS ...] [LABELS unit|integration|slow|lint] [TORCH] [SERIAL]
-#            [TIMEOUT s])
+#            [THREADS] [TIMEOUT s])
 #   One GoogleTest program; its cases become ctest cases. SERIAL: no other test runs beside them.
+#   THREADS: what it tests is shared by threads, and what it links sees enough of them that
+#   ThreadSanitizer can judge it. Only these programs are cases of the preset tsan.
 function(poise_test name)
-  cmake_parse_arguments(ARG "TORCH;SERIAL" "TIMEOUT" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "TORCH;SERIAL;THREADS" "TIMEOUT" "SOURCES;DEPS;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -63,6 +65,11 @@ function(poise_test name)
     set(torch_flag TORCH)
   endif()
   poise_program(${name} SOURCES ${ARG_SOURCES} DEPS ${ARG_DEPS} GTest::gmock_main ${torch_flag})
+  if(ARG_THREADS)
+    add_dependencies(poise_threaded_tests ${name})
+  elseif(POISE_SANITIZER STREQUAL "thread")
+    return()
+  endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL}
                SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]"

@@ -17,6 +17,9 @@ constexpr double kTouchSoftness = 0.004;  // [m] a corner this much above the lo
 constexpr double kDropSpread_s = 0.1;     // a drop of the pelvis is ready so much earlier
 constexpr double kDropCutoffHz = 3;
 
+constexpr double kSwing = 0.5;      // [m/s] a foot swings from this speed on, wholly at thrice
+constexpr double kLowSwing = 0.05;  // [m] below this it swings low, at twice no more
+
 using Path = std::vector<Vec3>;  // (frames) [m]
 
 double MinimumJerk(double u) {
@@ -177,9 +180,17 @@ std::vector<double> PlanDrop(const motion::Clip& clip, const std::array<FootTrac
   return drop;
 }
 
+// How far a foot swings close to the floor, 0 to 1: slow feet may turn on it.
+double LowSwing(const FootTrack& foot, int frame) {
+  const double fast = std::clamp((foot.speeds[frame] - kSwing) / (2 * kSwing), 0.0, 1.0);
+  return fast * std::clamp(2 - foot.heights[frame] / kLowSwing, 0.0, 1.0);
+}
+
 // Where a foot is to be, from the displacement that holds it still, less what the body follows.
 std::vector<FootTarget> PlanFoot(const std::vector<Contact>& contacts, const FootTrack& foot,
-                                 const Path& body, double rate_hz, int blend, Path path) {
+                                 const Path& body, const PreparationConfig& config, double rate_hz,
+                                 Path path) {
+  const int blend = std::max(1, static_cast<int>(std::lround(config.blend_s * rate_hz)));
   for (const Contact& contact : contacts) {
     for (int f = contact.first; f < contact.end; ++f) {
       path[f] -= body[f];
@@ -187,6 +198,9 @@ std::vector<FootTarget> PlanFoot(const std::vector<Contact>& contacts, const Foo
     }
   }
   BlendBetween(contacts, blend, path);
+  for (int f = 0; f < foot.num_frames(); ++f) {
+    if (!foot.standing[f]) path[f].y() += config.clearance_m * LowSwing(foot, f);
+  }
   Smooth(path, rate_hz, kSmoothHz);
   // Smoothing and a swing that comes low leave it off the floor a little.
   std::vector<double> off(path.size());
@@ -209,7 +223,6 @@ std::vector<FootTarget> PlanFoot(const std::vector<Contact>& contacts, const Foo
 motion::Clip PlantFeet(motion::Clip clip, const physics::HumanoidModel& model,
                        const PreparationConfig& config) {
   const double rate = clip.frame_rate();
-  const int blend = std::max(1, static_cast<int>(std::lround(config.blend_s * rate)));
   const std::vector<char> flight = FindFlight(clip, model);
   std::array<FootTrack, 2> feet = TrackFeet(clip, model);
   std::array<std::vector<Contact>, 2> contacts;
@@ -223,7 +236,7 @@ motion::Clip PlantFeet(motion::Clip clip, const physics::HumanoidModel& model,
   const Path body = FollowGlide(feet, held, rate, config.glide_cutoff_hz);
   std::array<std::vector<FootTarget>, 2> targets;
   for (int side = 0; side < 2; ++side) {
-    targets[side] = PlanFoot(contacts[side], feet[side], body, rate, blend, std::move(held[side]));
+    targets[side] = PlanFoot(contacts[side], feet[side], body, config, rate, std::move(held[side]));
   }
   for (int f = 0; f < clip.num_frames(); ++f) clip.root_position(f) += body[f];
   const std::vector<double> drop = PlanDrop(clip, feet, targets, config);

@@ -13,6 +13,7 @@ std::vector<base::Field> PreparationConfig::Fields() {
       base::Number("flat_angle", &flat_angle, 0, 1),
       base::Number("blend_s", &blend_s, 1e-3, 10),
       base::Number("glide_cutoff_hz", &glide_cutoff_hz, 0.1, 1000),
+      base::Number("clearance_m", &clearance_m, 0, 1),
       base::Number("longest_drop_m", &longest_drop_m, 0, 1),
       base::Number("overlap_m", &overlap_m, 0, 1),
       base::Number("widest_turn", &widest_turn, 0, 1.5),

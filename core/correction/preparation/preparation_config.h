@@ -27,6 +27,8 @@ struct PreparationConfig {
                             ///< beyond twice the angle
   double blend_s = 0.15;    ///< [s, > 0] over which a foot comes back to its own way
   double glide_cutoff_hz = 1.5;  ///< [Hz, > 0] low-pass of what the body follows gliding feet by
+  double clearance_m = 0.025;  ///< [m, >= 0] that a foot is lifted more where it swings low: a body
+                               ///< under gravity lags behind and would drag it
   double longest_drop_m = 0.15;  ///< [m, >= 0] the pelvis sinks at most, so that legs reach
 
   // Limbs.

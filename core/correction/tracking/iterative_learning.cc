@@ -31,9 +31,21 @@ void Learn(const std::vector<Speeds>& lags, double frame_rate, const LearningCon
   }
 }
 
+// Of the PD-residual's gains in the next rollout.
+double NextScale(bool completed, double scale, const LearningConfig& config) {
+  if (!completed) return std::min(scale / config.residual_decay, 1.0);
+  return std::min(scale, std::max(scale * config.residual_decay, config.residual_least));
+}
+
 double Merit(const TrackingScore& score, const LearningConfig& config) {
   return (score.completed ? 1 : 0) + score.reward_normalised -
          config.force_weight * score.residual_force_mean_bw;
+}
+
+bool IsBetter(const TrackingScore& score, const TrackingScore& best, const TrackingScore& first,
+              const LearningConfig& config) {
+  if (first.completed && score.reward_normalised < first.reward_normalised) return false;
+  return Merit(score, config) > Merit(best, config);
 }
 
 }  // namespace
@@ -48,7 +60,10 @@ StatusOr<LearningConfig> LearningConfig::FromPreset(std::string_view preset) {
   }
   config.rollouts = 8;
   config.joint_gain = 0.5;
+  config.wrench_gain = 0.25;
   config.lead_s = 0.033;
+  config.residual_decay = 1;
+  config.force_weight = 0.3;
   return config;
 }
 
@@ -59,6 +74,8 @@ std::vector<base::Field> LearningConfig::Fields() {
       base::Number("wrench_gain", &wrench_gain, 0, 1),
       base::Number("lead_s", &lead_s, 0, 1),
       base::Number("cutoff_hz", &cutoff_hz, 0.1, 1000),
+      base::Number("residual_decay", &residual_decay, 0.01, 1),
+      base::Number("residual_least", &residual_least, 0, 1),
       base::Number("force_weight", &force_weight, 0, 100),
   };
 }
@@ -69,9 +86,11 @@ StatusOr<Learned> LearnIteratively(MotionTracker& tracker, const ReferenceMotion
   LearningConfig checked = config;
   POISE_RETURN_IF_ERROR(base::CheckRanges(checked.Fields()));
   TrackingOffsets offsets(reference.num_frames(), Speeds::Zero());
+  double residual_scale = 1;
   const Commander commander = [&](const TrackingEpisode& episode) {
     FrameCommand command = steered ? steered(episode) : FrameCommand();
     command.offset += offsets[episode.frame()];
+    command.residual_scale *= residual_scale;
     return command;
   };
   POISE_ASSIGN_OR_RETURN(Recording first, tracker.Track(reference, context, commander));
@@ -79,6 +98,7 @@ StatusOr<Learned> LearnIteratively(MotionTracker& tracker, const ReferenceMotion
   std::vector<Speeds> lags = std::move(first.lags);
   while (static_cast<int>(learned.scores.size()) < config.rollouts) {
     Learn(lags, reference.frame_rate(), config, offsets);
+    residual_scale = NextScale(learned.scores.back().completed, residual_scale, config);
     auto next = tracker.Track(reference, context, commander);
     if (absl::IsDeadlineExceeded(next.status())) {
       learned.timed_out = true;
@@ -88,7 +108,7 @@ StatusOr<Learned> LearnIteratively(MotionTracker& tracker, const ReferenceMotion
     if (!next.ok()) break;
     learned.scores.push_back(next->score);
     lags = std::move(next->lags);
-    if (Merit(next->score, config) > Merit(learned.best.score, config)) {
+    if (IsBetter(next->score, learned.best.score, learned.scores.front(), config)) {
       learned.best = *std::move(next);
     }
     context.Report({.step = static_cast<int64_t>(learned.scores.size()),

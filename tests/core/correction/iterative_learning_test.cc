@@ -37,6 +37,18 @@ TEST(IterativeLearningTest, TheFirstRolloutIsTheControllerWithoutLearning) {
   EXPECT_NE(learned.scores[2].reward_total, alone);
 }
 
+TEST(IterativeLearningTest, WhatLegsHaveLearnedTheResidualNeedNotHold) {
+  const char* name = "hdm05/throwBasketball/HDM_bd_throwBasketball_001_120.amc";
+  POISE_REQUIRE_DATA(name);
+  const TrackedClip clip = ReadAndPrepare(testing::DataPath(name));
+  MotionTracker tracker = MakeTracker(clip);
+  const Learned learned = *LearnIteratively(tracker, clip.reference, {});
+  const TrackingScore &first = learned.scores[0], &best = learned.best.score;
+  EXPECT_TRUE(best.completed);
+  EXPECT_LT(best.residual_force_mean_bw, 0.7 * first.residual_force_mean_bw);
+  EXPECT_GE(best.reward_normalised, first.reward_normalised);
+}
+
 TEST(IterativeLearningTest, TheBestSoFarComesBackAtTheDeadline) {
   const TrackedClip clip = Prepare(SwayingClip(3));
   MotionTracker tracker = MakeTracker(clip);
@@ -88,7 +100,7 @@ TEST(IterativeLearningTest, LearningOnRealJogsLowersTheForceAndNotTheReward) {
     const TrackedClip clip = ReadAndPrepare(file);
     MotionTracker tracker = MakeTracker(clip);
     const Learned learned = *LearnIteratively(tracker, clip.reference, {});
-    EXPECT_GE(learned.best.score.reward_normalised, learned.scores[0].reward_normalised - 0.01);
+    EXPECT_GE(learned.best.score.reward_normalised, learned.scores[0].reward_normalised);
     force_before += learned.scores[0].residual_force_mean_bw;
     force_after += learned.best.score.residual_force_mean_bw;
   }

@@ -129,6 +129,31 @@ TEST(RealStepsTest, ContactsAreTheSameAt30And120Hertz) {
   EXPECT_GT(same, 0.93 * 2 * slow.num_frames());
 }
 
+TEST(RealStepsTest, AFootThatSwingsLowIsLiftedMoreAndAStandingOneIsNot) {
+  const char* name = "hdm05/jogLeftCircle4StepsRstart/HDM_bd_jogLeftCircle4StepsRstart_001_120.amc";
+  POISE_REQUIRE_DATA(name);
+  ReferenceConfig without;
+  without.preparation.clearance_m = 0;
+  const TrackedClip plain = ReadAndPrepare(testing::DataPath(name), without);
+  const TrackedClip lifted = ReadAndPrepare(testing::DataPath(name));
+  const double clearance = ReferenceConfig().preparation.clearance_m;
+  const auto before = TrackFeet(plain.reference.clip(), *plain.model);
+  const auto after = TrackFeet(lifted.reference.clip(), *lifted.model);
+  int swings = 0;
+  for (int f = 0; f < plain.reference.num_frames(); ++f) {
+    const std::array<double, 2> loads = lifted.reference.FootLoads(f / 120.0);
+    for (int side = 0; side < 2; ++side) {
+      if (loads[side] == 1) {
+        EXPECT_LT(after[side].heights[f], 0.005) << f;
+      }
+      if (before[side].speeds[f] < 2 || before[side].heights[f] > 0.04) continue;
+      ++swings;
+      EXPECT_NEAR(after[side].heights[f] - before[side].heights[f], clearance, 0.5 * clearance);
+    }
+  }
+  EXPECT_GE(swings, 3);
+}
+
 TEST(RealStepsTest, FeetStandStillerAndNothingJumps) {
   const char* name = "hdm05/kickLFront1Reps/HDM_bd_kickLFront1Reps_001_120.amc";
   POISE_REQUIRE_DATA(name);

@@ -1,13 +1,13 @@
 #include "core/synthesis/vae/vae_net.h"
 
 #include <numbers>
-#include <tuple>
+
+#include "core/learning/nn/lstm.h"
 
 namespace poise::synthesis {
 namespace {
 
 namespace nn = torch::nn;
-namespace rnn = torch::nn::utils::rnn;
 
 nn::LSTM MakeLstm(int inputs, int hidden, bool bidirectional) {
   return nn::LSTM(nn::LSTMOptions(inputs, hidden).batch_first(true).bidirectional(bidirectional));
@@ -19,16 +19,6 @@ nn::Sequential TwoLayers(int inputs, int hidden, int outputs) {
 
 nn::LayerNorm SlabNorm(int frames, int width) {
   return nn::LayerNorm(nn::LayerNormOptions({frames, width}));
-}
-
-// The outputs (batch, frames, 2 * hidden) of a bidirectional LSTM that sees valid frames only;
-// zero behind them.
-torch::Tensor RunPacked(nn::LSTM& lstm, const torch::Tensor& inputs, const torch::Tensor& lengths) {
-  const auto packed = rnn::pack_padded_sequence(inputs, lengths, /*batch_first=*/true,
-                                                /*enforce_sorted=*/false);
-  const auto outputs = std::get<0>(lstm->forward_with_packed_input(packed));
-  return std::get<0>(
-      rnn::pad_packed_sequence(outputs, /*batch_first=*/true, /*padding_value=*/0, inputs.size(1)));
 }
 
 // (frames, 2 * frequencies): sine and cosine of 1, 2, 4, ... half turns over the frames.
@@ -60,7 +50,7 @@ VaeEncoder::VaeEncoder(const VaeNetConfig& config, int frames, int width)
 
 LatentGaussian VaeEncoder::forward(const torch::Tensor& poses, const torch::Tensor& lengths) {
   const torch::Tensor outputs =
-      RunPacked(lstm_, torch::relu(embed_->forward(norm_->forward(poses))), lengths);
+      learning::RunLstm(lstm_, torch::relu(embed_->forward(norm_->forward(poses))), lengths);
   const torch::Tensor average = outputs.sum(1) / lengths.unsqueeze(1).to(poses.options());
   return {mean_->forward(average), log_variance_->forward(average)};
 }
@@ -80,7 +70,7 @@ torch::Tensor VaeDecoder::forward(const torch::Tensor& z) {
     const torch::Tensor clock = Clock(frames_, frequencies_, z.options());
     inputs = torch::cat({inputs, clock.unsqueeze(0).expand({z.size(0), frames_, -1})}, 2);
   }
-  return pose_->forward(std::get<0>(lstm_->forward(inputs)));
+  return pose_->forward(learning::RunLstm(lstm_, inputs));
 }
 
 VaeNet::VaeNet(const VaeNetConfig& config, int frames, int width)
@@ -110,7 +100,7 @@ SequenceDiscriminator::SequenceDiscriminator(const VaeNetConfig& config, int fra
 torch::Tensor SequenceDiscriminator::forward(const torch::Tensor& poses,
                                              const torch::Tensor& lengths) {
   const torch::Tensor outputs =
-      RunPacked(lstm_, torch::relu(embed_->forward(norm_->forward(poses))), lengths);
+      learning::RunLstm(lstm_, torch::relu(embed_->forward(norm_->forward(poses))), lengths);
   // The forward direction has seen all at the last valid frame, the backward one at the first.
   const torch::Tensor last = (lengths - 1).view({-1, 1, 1}).expand({-1, 1, hidden_});
   const torch::Tensor forward = outputs.narrow(2, 0, hidden_).gather(1, last).squeeze(1);

@@ -30,6 +30,21 @@ int LongestFrames(const std::vector<PreparedMotion>& motions) {
   return static_cast<int>(longest);
 }
 
+// Lets a gradient pass through a network without asking for that of its weights.
+class Frozen {
+ public:
+  explicit Frozen(torch::nn::Module& module) : parameters_(module.parameters()) { Set(false); }
+  ~Frozen() { Set(true); }
+  Frozen(const Frozen&) = delete;
+  Frozen& operator=(const Frozen&) = delete;
+
+ private:
+  void Set(bool requires_grad) {
+    for (torch::Tensor& parameter : parameters_) parameter.requires_grad_(requires_grad);
+  }
+  std::vector<torch::Tensor> parameters_;
+};
+
 // The first phase of each motion.
 MotionBatch StackFirst(const std::vector<PreparedMotion>& motions, int frames,
                        const RootScale& root) {
@@ -59,18 +74,10 @@ class VaeLearner {
                               [this](const Batch& batch) { return VaeLoss(batch); }});
     if (!config_.adversarial) return setup;
     setup.networks.push_back({"frame_discriminator", frame_judge_, config_.discriminator_optimizer,
-                              [this](const Batch&) -> StatusOr<Loss> {
-                                return Loss{
-                                    .total = DiscriminatorLoss(frame_judge_->forward(real_.poses),
-                                                               frame_judge_->forward(made_))};
-                              }});
-    setup.networks.push_back(
-        {"sequence_discriminator", sequence_judge_, config_.discriminator_optimizer,
-         [this](const Batch&) -> StatusOr<Loss> {
-           return Loss{.total =
-                           DiscriminatorLoss(sequence_judge_->forward(real_.poses, real_.lengths),
-                                             sequence_judge_->forward(made_, made_lengths_))};
-         }});
+                              [this](const Batch&) { return FrameJudgeLoss(); }});
+    setup.networks.push_back({"sequence_discriminator", sequence_judge_,
+                              config_.discriminator_optimizer,
+                              [this](const Batch&) { return SequenceJudgeLoss(); }});
     return setup;
   }
 
@@ -132,10 +139,24 @@ class VaeLearner {
     made_ = made.detach();
     made_lengths_ = length.detach().round().clamp(1, frames_).to(torch::kInt64);
     if (!config_.adversarial) return loss;
+    const Frozen frame_judge(*frame_judge_), sequence_judge(*sequence_judge_);
     add("frame_adversary", config_.frame_adversary_weight, -frame_judge_->forward(made).mean());
     add("sequence_adversary", config_.sequence_adversary_weight,
         -sequence_judge_->forward(made, made_lengths_).mean());
     return loss;
+  }
+
+  StatusOr<Loss> FrameJudgeLoss() {
+    return Loss{.total = DiscriminatorLoss(frame_judge_->forward(real_.poses),
+                                           frame_judge_->forward(made_))};
+  }
+
+  // Real and made motions as one batch: its matrix products are twice as wide.
+  StatusOr<Loss> SequenceJudgeLoss() {
+    const torch::Tensor verdicts = sequence_judge_->forward(
+        torch::cat({real_.poses, made_}), torch::cat({real_.lengths, made_lengths_}));
+    const auto halves = verdicts.chunk(2);
+    return Loss{.total = DiscriminatorLoss(halves[0], halves[1])};
   }
 
   const VaeConfig config_;

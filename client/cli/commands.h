@@ -33,6 +33,8 @@ std::vector<Command> AddModelsCommands(CLI::App& app, const Console& console);
 std::vector<Command> AddDataCommands(CLI::App& app, const Console& console);
 /// Trains networks on a server (train_command.cc).
 Command AddTrainCommand(CLI::App& app, const Console& console);
+/// How good what was made is (evaluate_command.cc).
+std::vector<Command> AddEvaluateCommands(CLI::App& app, const Console& console);
 /// For operators (admin_command.cc).
 std::vector<Command> AddAdminCommands(CLI::App& app, const Console& console);
 

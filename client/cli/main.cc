@@ -13,7 +13,8 @@ namespace {
 constexpr char kDescription[] =
     "Human motion in, more and better human motion out.\n\n"
     "Reads BVH, ASF/AMC, AMASS-style npz, CMU exponential-map text and DeepMimic JSON. info, "
-    "convert and fk work on files alone; augment, correct, predict, push, jobs, train, models, "
+    "convert, fk and evaluate work on files alone; augment, correct, predict, push, jobs, train, "
+    "models, "
     "data, admin and health ask a Poise server (POISE_SERVER, default 127.0.0.1:50051).";
 constexpr char kFooter[] =
     "Examples:\n"
@@ -48,6 +49,7 @@ Status Main(const Console& console, int argc, char** argv) {
                                    AddPushCommand(app, console),    AddHealthCommand(app, console)};
   for (Command& command : AddJobsCommands(app, console)) commands.push_back(std::move(command));
   commands.push_back(AddTrainCommand(app, console));
+  for (Command& command : AddEvaluateCommands(app, console)) commands.push_back(std::move(command));
   for (Command& command : AddModelsCommands(app, console)) commands.push_back(std::move(command));
   for (Command& command : AddDataCommands(app, console)) commands.push_back(std::move(command));
   for (Command& command : AddAdminCommands(app, console)) commands.push_back(std::move(command));

@@ -3,11 +3,23 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
 namespace poise::server {
 namespace {
+
+// Where an installed program finds them, else one that was built in its source tree; empty: none.
+std::filesystem::path DefaultShippedModels() {
+  std::error_code error;
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  for (const char* place : {"../share/poise/models", "../../../models"}) {
+    const auto models = std::filesystem::weakly_canonical(folder / place, error);
+    if (!error && std::filesystem::is_directory(models, error)) return models;
+  }
+  return {};
+}
 
 void AddServerFlags(PoisedOptions& options, CLI::App& app) {
   app.add_option("--listen", options.server.listen, "ADDR:PORT to serve on; port 0: any free one")
@@ -15,8 +27,10 @@ void AddServerFlags(PoisedOptions& options, CLI::App& app) {
   app.add_option("--data-dir", options.engine.data_dir,
                  "Folder for artifacts, jobs, models and data sets")
       ->capture_default_str();
+  options.engine.shipped_models = DefaultShippedModels();
   app.add_option("--shipped-models", options.engine.shipped_models,
-                 "Folder of models that came with the program; they are read only");
+                 "Folder of models that came with the program; they are read only")
+      ->capture_default_str();
   app.add_option("--compute-threads", options.engine.compute_threads,
                  "Threads that make variants; 0: one per CPU")
       ->check(CLI::Range(0, 1024))

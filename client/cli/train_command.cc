@@ -14,8 +14,9 @@ namespace {
 constexpr char kDescription[] =
     "Train a network on a server.\n\n"
     "The training is a job: it survives whatever is killed and goes on from its last checkpoint. "
-    "The command waits for it and then gives the model its name; with --detach it prints the job, "
-    "whose model.safetensors can be imported later (poise models import NAME artifacts/SHA256).";
+    "When it ends the server gives the model its name. The command waits for that; with --detach "
+    "it "
+    "prints the job and ends.";
 constexpr char kVaeDescription[] =
     "Train MotionAug's variational autoencoder on the clips of one class.\n\n"
     "The actor of --hold-out is not learned from; how well his motions are reconstructed stands in "
@@ -43,7 +44,8 @@ StatusOr<api::CreateJob> Request(const TrainOptions& options, const api::DataSet
   request.request_id = options.request_id;
   request.seed = options.seed;
   POISE_ASSIGN_OR_RETURN(const auto settings, ParsePairs(options.assignments, "set"));
-  request.spec.parameters = {{"data_artifact", data.artifact},
+  request.spec.parameters = {{"name", options.name},
+                             {"data_artifact", data.artifact},
                              {"data", data.name},
                              {"data_license", data.license},
                              {"action_class", options.action_class},
@@ -71,6 +73,7 @@ Status RunVae(const TrainOptions& options, const Console& console) {
   POISE_ASSIGN_OR_RETURN(job, wait.End(*client, std::move(job)));
   if (job.state != api::JobState::kSucceeded) return JobOutcome(job);
   POISE_ASSIGN_OR_RETURN(const std::string artifact, ModelArtifact(job));
+  // The server has done so; the answer is which version it became.
   POISE_ASSIGN_OR_RETURN(const api::Model model, client->ImportModel(options.name, artifact));
   if (console.json()) {
     console.PrintJson({{"model", model.name},

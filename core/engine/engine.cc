@@ -27,9 +27,13 @@ StatusOr<std::unique_ptr<Engine>> Engine::Create(const EngineConfig& config,
   return std::unique_ptr<Engine>(new Engine(config, std::move(stores), telemetry));
 }
 
-JobManagerConfig Engine::JobsConfig() const {
+JobManagerConfig Engine::JobsConfig() {
   JobManagerConfig config = config_.jobs;
   config.data_dir = config_.data_dir;
+  config.before_success = [this](const api::Job& job,
+                                 const std::vector<api::JobArtifact>& artifacts) {
+    return models_.ImportTrained(job, artifacts);
+  };
   config.other_artifacts = [this] { return data_sets_->Artifacts(); };
   return config;
 }

@@ -74,7 +74,7 @@ class Engine {
 
   Engine(EngineConfig config, Stores stores, base::Telemetry& telemetry);
 
-  JobManagerConfig JobsConfig() const;
+  JobManagerConfig JobsConfig();
 
   EngineConfig config_;
   std::unique_ptr<artifacts::ArtifactStore> artifacts_;

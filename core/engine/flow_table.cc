@@ -24,7 +24,8 @@ const std::vector<Flow>& FlowTable() {
        jobs::MakeSelftestRunner},
       {"correct", "variants of clips that a simulated body has imitated", ValidateCorrect,
        MakeCorrectRunner, CorrectNeedsTorch},
-      {"train_vae", "a variational autoencoder of one class's motions", ValidateTrainVae, nullptr},
+      {"train_vae", "a variational autoencoder of one class's motions", ValidateTrainVae, nullptr,
+       nullptr, /*trains=*/true},
   };
   return flows;
 }

@@ -13,6 +13,8 @@
 
 namespace poise::engine {
 
+inline constexpr std::string_view kModelFile = "model.safetensors";
+
 /// One kind of job: what server and worker must agree on.
 struct Flow {
   std::string_view kind;
@@ -23,6 +25,9 @@ struct Flow {
   std::unique_ptr<jobs::JobRunner> (*make_runner)();
   /// Which jobs cannot do without LibTorch; null: none, or all where make_runner is null.
   bool (*needs_torch)(const base::Json& parameters) = nullptr;
+  /// Its result holds kModelFile, which becomes the next version of the model that the parameter
+  /// "name" names, if it does.
+  bool trains = false;
 };
 
 /// Every kind that this build knows: a new one is a line here.

@@ -201,6 +201,11 @@ StatusOr<api::JobState> JobManager::Finish(const jobs::Fence& fence, const jobs:
   std::vector<std::string> names;
   for (const api::JobArtifact& artifact : outcome.artifacts) names.push_back(artifact.artifact);
   POISE_RETURN_IF_ERROR(HoldArtifacts(names, "artifacts"));
+  if (config_.before_success && outcome.outcome == api::AttemptOutcome::kSucceeded) {
+    // Without a lease the store answers, also what it answered before.
+    const StatusOr<api::Job> job = store_->Leased(fence);
+    if (job.ok()) POISE_RETURN_IF_ERROR(config_.before_success(*job, outcome.artifacts));
+  }
   return store_->Finish(fence, outcome);
 }
 

@@ -33,6 +33,9 @@ struct JobManagerConfig {
   absl::Duration artifact_retention = absl::Hours(24);
   /// Artifacts that are kept for another reason than a job; Engine fills it in.
   std::function<std::vector<std::string>()> other_artifacts = {};
+  /// Keeps what must not be lost of a job that is about to succeed; the job succeeds only after it
+  /// has, and it is asked again where an answer to the worker was lost. Engine fills it in.
+  std::function<Status(const api::Job&, const std::vector<api::JobArtifact>&)> before_success = {};
   JobLog* log = &JobLog::None();  ///< outlives the manager
 
   /// Errors: kInvalidArgument BAD_JOB_POLICY with the field.

@@ -1,6 +1,10 @@
 #include "core/engine/model_catalog.h"
 
+#include <fmt/format.h>
+
 #include <utility>
+
+#include "core/engine/flow_table.h"
 
 namespace poise::engine {
 namespace {
@@ -40,6 +44,19 @@ StatusOr<api::Model> ModelCatalog::Import(const std::string& name, const std::st
   const StatusOr<artifacts::ModelArtifact> model = artifacts::UnpackModel(*bytes, artifact);
   if (!model.ok()) return AtArtifact(model.status());
   return registry_.Import(name, *model);
+}
+
+Status ModelCatalog::ImportTrained(const api::Job& job,
+                                   const std::vector<api::JobArtifact>& artifacts) {
+  POISE_ASSIGN_OR_RETURN(const Flow* flow, FindFlow(job.spec.kind));
+  const std::string name = flow->trains ? job.spec.parameters.value("name", "") : "";
+  if (name.empty()) return absl::OkStatus();
+  for (const api::JobArtifact& artifact : artifacts) {
+    if (artifact.name == kModelFile) return Import(name, artifact.artifact).status();
+  }
+  return base::MakeError(
+      absl::StatusCode::kInternal, "NO_MODEL_FILE", "artifacts",
+      fmt::format("a job of kind '{}' ended without {}", flow->kind, kModelFile));
 }
 
 StatusOr<artifacts::ArtifactInfo> ModelCatalog::Export(std::string_view model) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/api/job.h"
 #include "core/artifacts/artifact_store.h"
 #include "core/artifacts/model_registry.h"
 #include "core/base/status.h"
@@ -30,6 +31,9 @@ class ModelCatalog {
 
   /// Errors: those of UnpackModel and ArtifactStore::ReadAll with the field "artifact".
   StatusOr<api::Model> Import(const std::string& name, const std::string& artifact);
+  /// Gives what a finished job learned the name that its parameters ask for (Flow::trains); the
+  /// same job again changes nothing. Errors: those of Import; kInternal NO_MODEL_FILE.
+  Status ImportTrained(const api::Job& job, const std::vector<api::JobArtifact>& artifacts);
   /// As one file, to be downloaded within the retention of artifacts.
   StatusOr<artifacts::ArtifactInfo> Export(std::string_view model);
 

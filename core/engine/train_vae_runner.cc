@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/engine/flow_table.h"
 #include "core/pipeline/train_vae.h"
 
 namespace poise::engine {
@@ -56,12 +57,16 @@ StatusOr<jobs::RunOutput> TrainVaeRunner::Run(const jobs::RunInput& input,
   output.report = {{"scores", result.model.card.scores},
                    {"trained_on", result.model.card.trained_on},
                    {"steps", result.model.card.steps}};
-  POISE_RETURN_IF_ERROR(Write(input.folder, "model.safetensors", "application/octet-stream",
+  POISE_RETURN_IF_ERROR(Write(input.folder, std::string(kModelFile), "application/octet-stream",
                               artifacts::PackModel(std::move(result.model)), output));
   POISE_RETURN_IF_ERROR(
       Write(input.folder, "learning_curve.csv", "text/csv", result.curve_csv, output));
   POISE_RETURN_IF_ERROR(
       Write(input.folder, "learning_curve.svg", "image/svg+xml", result.curve_svg, output));
+  if (!result.latent_map_svg.empty()) {
+    POISE_RETURN_IF_ERROR(
+        Write(input.folder, "latent_map.svg", "image/svg+xml", result.latent_map_svg, output));
+  }
   return output;
 }
 

@@ -5,8 +5,9 @@
 
 namespace poise::engine {
 
-/// Kind `train_vae`: parameters as pipeline::TrainVaeSpec; files model.safetensors (to be
-/// imported), learning_curve.csv and .svg; the manifest's report holds the card's scores.
+/// Kind `train_vae`: parameters as pipeline::TrainVaeSpec; files model.safetensors (which
+/// the server gives its name), learning_curve.csv and .svg, latent_map.svg; the manifest's report
+/// holds the card's scores.
 class TrainVaeRunner : public jobs::JobRunner {
  public:
   StatusOr<jobs::RunOutput> Run(const jobs::RunInput& input,

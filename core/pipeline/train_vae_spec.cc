@@ -2,13 +2,16 @@
 
 #include <utility>
 
+#include "core/api/model_card.h"
+
 namespace poise::pipeline {
 namespace {
 
 constexpr const char* kOverrides = "set";
 
 std::vector<base::Field> Fields(TrainVaeSpec& spec) {
-  return {base::Text("data_artifact", &spec.data_artifact),
+  return {base::Text("name", &spec.name),
+          base::Text("data_artifact", &spec.data_artifact),
           base::Text("data", &spec.data),
           base::Text("data_license", &spec.data_license),
           base::Text("action_class", &spec.action_class),
@@ -30,6 +33,9 @@ StatusOr<TrainVaeSpec> Parse(base::Json parameters) {
     }
   }
   POISE_RETURN_IF_ERROR(base::FieldsFromJson(parameters, Fields(spec)));
+  if (!spec.name.empty()) {
+    POISE_RETURN_IF_ERROR(api::CheckResourceName(spec.name, "BAD_MODEL_NAME"));
+  }
   if (spec.data_artifact.empty()) {
     return base::InvalidArgument("MISSING_DATA", "data_artifact",
                                  "say what to learn from: the artifact of a data set");

@@ -12,6 +12,7 @@ namespace poise::pipeline {
 
 /// The parameters of a job of kind `train_vae`.
 struct TrainVaeSpec {
+  std::string name;           ///< of the model; empty: none is registered
   std::string data_artifact;  ///< "artifacts/<sha256>": the clips of the data set
   std::string data;           ///< its name, for the card
   std::string data_license;
@@ -21,7 +22,8 @@ struct TrainVaeSpec {
   base::Overrides overrides;  ///< "set": settings of VaeConfig by name
 
   /// Errors: kInvalidArgument with a field below "spec.parameters": UNKNOWN_CONFIG_KEY,
-  /// MALFORMED_CONFIG_VALUE, MISSING_DATA, UNKNOWN_PRESET, CONFIG_VALUE_OUT_OF_RANGE.
+  /// MALFORMED_CONFIG_VALUE, BAD_MODEL_NAME, MISSING_DATA, UNKNOWN_PRESET,
+  /// CONFIG_VALUE_OUT_OF_RANGE.
   static StatusOr<TrainVaeSpec> FromParameters(const base::Json& parameters);
 
   /// The preset with the overrides.

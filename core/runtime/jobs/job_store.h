@@ -195,6 +195,9 @@ class JobStore {
   virtual StatusOr<HeartbeatReply> Heartbeat(const Fence& fence,
                                              const std::optional<base::Progress>& progress) = 0;
 
+  /// The job of a live lease, without taking the lease further.
+  virtual StatusOr<api::Job> Leased(const Fence& fence) = 0;
+
   /// Idempotent. A greater step than the last checkpoint's sets the losses to 0.
   virtual Status CommitCheckpoint(const Fence& fence, const std::string& artifact,
                                   int64_t step) = 0;

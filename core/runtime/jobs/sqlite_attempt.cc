@@ -7,6 +7,7 @@
 #include "core/runtime/jobs/sqlite_calls.h"
 #include "core/runtime/jobs/sqlite_fence.h"
 #include "core/runtime/jobs/sqlite_lease.h"
+#include "core/runtime/jobs/sqlite_reading.h"
 #include "core/runtime/jobs/sqlite_state.h"
 
 namespace poise::jobs::sqlite {
@@ -88,6 +89,12 @@ StatusOr<HeartbeatReply> ExtendLease(Transaction& t, const Fence& fence,
   SeeWorker(t, lease.worker);
   return HeartbeatReply{lease.cancelled ? Directive::kCancel : Directive::kContinue,
                         t.policy.lease};
+}
+
+StatusOr<api::Job> LeasedJob(Transaction& t, const Fence& fence) {
+  POISE_ASSIGN_OR_RETURN(const LiveLease lease, FindLease(t, fence));
+  POISE_ASSIGN_OR_RETURN(const JobRow job, ReadJobRow(t.db, lease.job));
+  return LoadJob(t.db, job.tenant, job.id);
 }
 
 Status SaveCheckpoint(Transaction& t, const Fence& fence, const std::string& artifact,

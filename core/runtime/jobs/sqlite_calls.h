@@ -28,6 +28,7 @@ void SeeWorker(Transaction& t, const std::string& worker);
 // sqlite_attempt.cc: what a worker writes for its attempt.
 StatusOr<HeartbeatReply> ExtendLease(Transaction& t, const Fence& fence,
                                      const std::optional<base::Progress>& progress);
+StatusOr<api::Job> LeasedJob(Transaction& t, const Fence& fence);
 Status SaveCheckpoint(Transaction& t, const Fence& fence, const std::string& artifact,
                       int64_t step);
 StatusOr<api::JobState> FinishAttempt(Transaction& t, const Fence& fence, const Outcome& outcome);

@@ -84,6 +84,10 @@ class SqliteJobStore final : public JobStore {
                  [&](Transaction& t) { return ExtendLease(t, fence, progress); });
   }
 
+  StatusOr<api::Job> Leased(const Fence& fence) override {
+    return Write("store.leased", [&](Transaction& t) { return LeasedJob(t, fence); });
+  }
+
   Status CommitCheckpoint(const Fence& fence, const std::string& artifact, int64_t step) override {
     return Write("store.checkpoint",
                  [&](Transaction& t) { return SaveCheckpoint(t, fence, artifact, step); });

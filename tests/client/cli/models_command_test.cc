@@ -107,6 +107,47 @@ TEST_F(ModelsCommandTest, ANetworkIsTrainedByAJobAndMakesMotions) {
   EXPECT_EQ(typo.Error()["reason"], "UNKNOWN_CONFIG_KEY");
 }
 
+TEST_F(ModelsCommandTest, AJobThatNobodyWaitsForGivesItsModelTheName) {
+  std::filesystem::create_directories(Path("clips/swing"));
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(motion::WriteBvhFile(Path("clips/swing/" + std::to_string(i) + ".bvh"),
+                                     SwingingClip(60, 120, 0.3, i))
+                    .ok());
+  }
+  ASSERT_EQ(Poise({"data", "add", "swings", Path("clips")}).exit_code, 0);
+  const PoiseRun detached = Poise({"train", "vae", "--data", "swings", "--name", "swing", "--set",
+                                   "trainer.steps=5", "--set", "net.hidden=16", "--detach"});
+  ASSERT_EQ(detached.exit_code, 0) << detached.out << detached.err;
+  const std::string job = detached.JsonLines().back()["name"];
+  ASSERT_EQ(Poise({"jobs", "watch", job}).exit_code, 0);
+  const PoiseRun model = Poise({"models", "get", "swing"});
+  ASSERT_EQ(model.exit_code, 0) << model.out << model.err;
+  EXPECT_EQ(model.JsonLines().back()["card"]["steps"], 5);
+  const PoiseRun bad = Poise({"train", "vae", "--data", "swings", "--name", "no name"});
+  EXPECT_EQ(bad.Error()["reason"], "BAD_MODEL_NAME");
+}
+
+TEST_F(ModelsCommandTest, MadeMotionsAreHeldAgainstTheClipsTheyWereMadeFrom) {
+  for (const char* folder : {"clips/swing", "made"}) {
+    std::filesystem::create_directories(Path(folder));
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_TRUE(motion::WriteBvhFile(Path(folder + ("/" + std::to_string(i)) + ".bvh"),
+                                       SwingingClip(60, 120, 0.3, i))
+                      .ok());
+    }
+  }
+  const PoiseRun same = Poise({"evaluate", "synthesis", Path("made"), "--data", Path("clips")});
+  ASSERT_EQ(same.exit_code, 0) << same.out << same.err;
+  const base::Json measures = same.JsonLines().back();
+  EXPECT_EQ(measures["made"], 3);
+  EXPECT_EQ(measures["min_dtw"], 0);
+  EXPECT_EQ(measures["diversity"], measures["diversity_training"]);
+  const PoiseRun nobody =
+      Poise({"evaluate", "synthesis", Path("made"), "--data", Path("clips"), "--hold-out", "tr"});
+  EXPECT_EQ(nobody.exit_code, 2);
+  EXPECT_EQ(nobody.Error()["reason"], "TOO_FEW_MOTIONS");
+}
+
 TEST_F(ModelsCommandTest, AModelIsImportedExportedAndDeleted) {
   artifacts::ModelArtifact model;
   model.card.family = "vae";

@@ -107,6 +107,33 @@ TEST_F(JobManagerTest, WorkerThatCouldNotBeHeardOfWhileThereWasNoServerKeepsItsJ
   EXPECT_TRUE(jobs().Heartbeat((*lease)->fence, std::nullopt).ok());
 }
 
+TEST_F(JobManagerTest, AJobSucceedsOnlyAfterItsResultIsKept) {
+  std::vector<std::string> kept;
+  Status answer = base::MakeError(absl::StatusCode::kUnavailable, "CANNOT_STORE", "", "disk full");
+  config_.before_success = [&](const api::Job& job, const std::vector<api::JobArtifact>& files) {
+    kept.push_back(job.id + " " + files.at(0).name);
+    return answer;
+  };
+  const auto job = jobs().Create({}, Request("{}"));
+  ASSERT_TRUE(job.ok()) << job.status();
+  ASSERT_TRUE(jobs().RegisterWorker({.id = "w", .slots = 1, .last_seen = {}}).ok());
+  const auto lease = jobs().Claim({.worker = "w", .token = "0123456789abcdef"});
+  ASSERT_TRUE(lease.ok() && lease->has_value()) << lease.status();
+  const jobs::Outcome outcome{.artifacts = {{"model", artifacts_->Put("weights")->name, 7, ""}}};
+  EXPECT_EQ(base::ErrorReason(jobs().Finish((*lease)->fence, outcome).status()), "CANNOT_STORE");
+  EXPECT_EQ(jobs().Get("default", job->id)->state, api::JobState::kRunning);
+  answer = absl::OkStatus();
+  EXPECT_EQ(*jobs().Finish((*lease)->fence, outcome), api::JobState::kSucceeded);
+  // The answer was lost: nothing is kept twice.
+  EXPECT_EQ(*jobs().Finish((*lease)->fence, outcome), api::JobState::kSucceeded);
+  EXPECT_EQ(kept, (std::vector<std::string>{job->id + " model", job->id + " model"}));
+  // And nobody without the lease gets anything kept.
+  jobs::Fence stale = (*lease)->fence;
+  stale.token = "fedcba9876543210";
+  EXPECT_FALSE(jobs().Finish(stale, outcome).ok());
+  EXPECT_EQ(kept.size(), 2u);
+}
+
 TEST_F(JobManagerTest, PolicyThatCannotWorkIsRefused) {
   const auto reason = [this](auto change) {
     JobManagerConfig config = config_;

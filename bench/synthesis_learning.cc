@@ -1,40 +1,78 @@
-// Trains the VAE on one class without one actor, then measures what it makes beside the clips that
-// it learned from and those of the actor:
+// Re-makes table 1 of MotionAug: trains a GAN and the VAE with and without adversaries on one
+// class, without one actor at a time, and measures what they make, by which sampling, beside the
+// clips that they learned from:
 //
-//   synthesis_learning --data DIR/hdm05 --class kick --left-out bd --save kick-bd
-//   synthesis_learning --data DIR/hdm05 --class kick --left-out bd --set trainer.steps=500
+//   synthesis_learning --data DIR/hdm05 --class kick --save models/kick --out kick.csv --seeds 3
+//   synthesis_learning --data DIR/hdm05 --class kick --left-out bd --rows both
 //
+// A network that was saved is not trained again, so an interrupted run goes on. The results file
+// has the columns of `poise evaluate`; the MMD of all folds together has the fold "pooled".
 // Progress goes to standard error.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <set>
+#include <sstream>
 
 #include "CLI/CLI.hpp"
 #include "core/artifacts/model_artifact.h"
+#include "core/base/memory_policy.h"
 #include "core/motion/dataset/clip_folder.h"
+#include "core/motion/distribution/compare_sets.h"
+#include "core/motion/editing/reduce.h"
+#include "core/synthesis/vae/vae_model.h"
 #include "core/synthesis/vae/vae_motions.h"
 #include "core/synthesis/vae/vae_trainer.h"
 
 namespace poise {
 namespace {
 
+using Features = std::vector<motion::MotionFeatures>;
+
 struct Options {
   std::string data;
   std::string action_class;
-  std::string left_out;
+  std::vector<std::string> left_out;  // empty: each actor in turn
+  std::vector<std::string> rows = {"training", "gan", "vae", "adversarial", "near", "both"};
   std::string preset = "recommended";
   std::vector<std::string> assignments;
-  uint64_t seed = 1;
-  std::string save;  // prefix of files
+  uint64_t first_seed = 1;
+  int seeds = 1;
+  int samples = 100;
+  std::string save;  // prefix of the models' files
+  std::string out;
   bool lengths = false;
 };
 
-StatusOr<synthesis::VaeConfig> Config(const Options& options) {
+// A line of the table: which network, trained with which settings, sampled how. "training": none.
+struct Row {
+  const char* name;
+  const char* network;
+  base::Overrides settings;
+  const char* sampling;
+};
+
+const std::vector<Row>& TableRows() {
+  static const std::vector<Row> rows = {
+      {"training", "", {}, ""},
+      {"gan", "gan", {{"generator", "gan"}}, "prior"},
+      {"vae", "plain", {{"adversarial", "false"}}, "prior"},
+      {"adversarial", "adversarial", {}, "prior"},
+      {"near", "plain", {{"adversarial", "false"}}, "near"},
+      {"both", "adversarial", {}, "near"},
+  };
+  return rows;
+}
+
+StatusOr<synthesis::VaeConfig> Config(const Options& options, const Row& row) {
   POISE_ASSIGN_OR_RETURN(synthesis::VaeConfig config,
                          synthesis::VaeConfig::FromPreset(options.preset));
-  base::Overrides overrides;
+  base::Overrides overrides = row.settings;
   for (const std::string& assignment : options.assignments) {
     const size_t equals = assignment.find('=');
     overrides[assignment.substr(0, equals)] =
@@ -55,54 +93,191 @@ void PrintProgress(const base::Progress& progress) {
   std::fprintf(stderr, "\n");
 }
 
-Status PrintLengths(const synthesis::VaeTask& task) {
-  POISE_ASSIGN_OR_RETURN(const synthesis::Fold fold,
-                         synthesis::PrepareFold(task.clips, task.fold, task.config.frame_rate));
-  std::vector<long> lengths;
-  for (const auto& motion : fold.train) lengths.push_back(motion.phases.front().rows());
-  fmt::print("{}\n", fmt::join(lengths, ","));
-  return absl::OkStatus();
+double SecondsSince(std::chrono::steady_clock::time_point time) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
 }
 
+StatusOr<motion::MotionFeatures> Describe(const motion::Clip& clip) {
+  POISE_ASSIGN_OR_RETURN(const auto roles, motion::JointRoles::Detect(*clip.skeleton()));
+  return motion::DescribeMotion(clip, roles);
+}
+
+/// The clips of the class, and what was measured of them.
+class Table {
+ public:
+  static StatusOr<Table> Create(const Options& options) {
+    POISE_ASSIGN_OR_RETURN(
+        motion::ClipSet set,
+        motion::ReadClipFolder(options.data, {.action_class = options.action_class}));
+    Table table(options, std::move(set.clips));
+    for (const motion::LabelledClip& labelled : table.clips_) {
+      POISE_ASSIGN_OR_RETURN(table.features_.emplace_back(), Describe(labelled.clip));
+    }
+    return table;
+  }
+
+  Status Run() {
+    for (int i = 0; i < options_.seeds; ++i) {
+      for (const Row& row : TableRows()) {
+        if (std::find(options_.rows.begin(), options_.rows.end(), row.name) !=
+            options_.rows.end()) {
+          POISE_RETURN_IF_ERROR(Measure(row, options_.first_seed + i));
+        }
+      }
+    }
+    return absl::OkStatus();
+  }
+
+  Status PrintLengths() const {
+    synthesis::VaeConfig config;
+    POISE_ASSIGN_OR_RETURN(const synthesis::Fold fold,
+                           synthesis::PrepareFold(clips_, {options_.action_class, Actors().front()},
+                                                  config.frame_rate));
+    std::vector<long> lengths;
+    for (const auto& motion : fold.train) lengths.push_back(motion.phases.front().rows());
+    fmt::print("{}\n", fmt::join(lengths, ","));
+    return absl::OkStatus();
+  }
+
+ private:
+  Table(const Options& options, std::vector<motion::LabelledClip> clips)
+      : options_(options), clips_(std::move(clips)) {}
+
+  std::vector<std::string> Actors() const {
+    if (!options_.left_out.empty()) return options_.left_out;
+    std::set<std::string> actors;
+    for (const motion::LabelledClip& labelled : clips_) actors.insert(labelled.actor);
+    return {actors.begin(), actors.end()};
+  }
+
+  Status Measure(const Row& row, uint64_t seed) {
+    std::vector<motion::SamplePair> folds;
+    base::Random random(seed);
+    for (const std::string& actor : Actors()) {
+      motion::MotionSets sets;
+      for (size_t i = 0; i < clips_.size(); ++i) {
+        (clips_[i].actor == actor ? sets.reference : sets.training).push_back(features_[i]);
+      }
+      if (*row.network == '\0') {
+        sets.made = sets.training;
+      } else {
+        POISE_ASSIGN_OR_RETURN(const auto model, Network(row, actor, seed));
+        POISE_ASSIGN_OR_RETURN(sets.made, MakeMotions(model, row, seed));
+      }
+      base::RunContext context;
+      context.seed = seed;
+      POISE_ASSIGN_OR_RETURN(motion::SetComparison comparison,
+                             motion::CompareSets(sets, {}, context));
+      const base::Json measures = base::FieldsToJson(comparison.Fields());
+      for (const auto& [name, value] : measures.items()) {
+        Report(row, actor, seed, name, value.get<double>());
+      }
+      folds.push_back(motion::DrawSamplePair(sets.made, sets.reference, random));
+    }
+    if (folds.size() < 2) return absl::OkStatus();
+    POISE_ASSIGN_OR_RETURN(const motion::MmdResult pooled,
+                           motion::MaximumMeanDiscrepancy(folds, {}, random));
+    Report(row, "pooled", seed, "mmd", pooled.squared_mmd);
+    Report(row, "pooled", seed, "mmd_p", pooled.p_value);
+    return absl::OkStatus();
+  }
+
+  StatusOr<artifacts::ModelArtifact> Network(const Row& row, const std::string& actor,
+                                             uint64_t seed) {
+    const std::string prefix = fmt::format("{}-{}-{}-{}", options_.save, row.network, actor, seed);
+    const std::string file = prefix + ".safetensors";
+    if (!options_.save.empty() && std::filesystem::exists(file)) {
+      std::ostringstream bytes;
+      bytes << std::ifstream(file, std::ios::binary).rdbuf();
+      return artifacts::UnpackModel(std::move(bytes).str(), file);
+    }
+    synthesis::VaeTask task;
+    POISE_ASSIGN_OR_RETURN(task.config, Config(options_, row));
+    task.clips = clips_;
+    task.fold = {.action_class = options_.action_class, .held_out = actor};
+    task.preset = options_.preset;
+    base::RunContext context;
+    context.seed = seed;
+    context.progress = PrintProgress;
+    const auto began = std::chrono::steady_clock::now();
+    POISE_ASSIGN_OR_RETURN(synthesis::VaeResult result, synthesis::TrainVae(task, context));
+    Report(row, actor, seed, "training_s", SecondsSince(began));
+    for (const auto& [name, value] : result.model.card.scores) {
+      Report(row, actor, seed, name, value);
+    }
+    if (!options_.save.empty()) {
+      std::ofstream(prefix + "_curve.csv") << result.curve_csv;
+      std::ofstream(prefix + "_latents.svg") << result.latent_map_svg;
+      std::ofstream(file, std::ios::binary) << artifacts::PackModel(result.model);
+    }
+    return std::move(result.model);
+  }
+
+  StatusOr<Features> MakeMotions(const artifacts::ModelArtifact& artifact, const Row& row,
+                                 uint64_t seed) {
+    POISE_ASSIGN_OR_RETURN(const auto model, synthesis::VaeModel::Create(artifact));
+    POISE_ASSIGN_OR_RETURN(const auto roles, motion::ReducedRoles(*model->skeleton()));
+    const synthesis::LatentSampler sampler = model->MakeSampler({.mode = row.sampling});
+    base::Random random(seed);
+    std::vector<motion::Clip> clips;
+    const auto began = std::chrono::steady_clock::now();
+    for (int i = 0; i < options_.samples; ++i) {
+      POISE_ASSIGN_OR_RETURN(motion::Clip clip, model->Decode(sampler.Draw(random), "made"));
+      clips.push_back(std::move(clip));
+    }
+    std::fprintf(stderr, "%.0f samples per second\n", options_.samples / SecondsSince(began));
+    Features features;
+    for (const motion::Clip& clip : clips) {
+      POISE_ASSIGN_OR_RETURN(features.emplace_back(), motion::DescribeMotion(clip, roles));
+    }
+    return features;
+  }
+
+  void Report(const Row& row, const std::string& fold, uint64_t seed, const std::string& metric,
+              double value) {
+    std::printf("%-12s %-7s seed %d  %-28s %.4f\n", row.name, fold.c_str(), static_cast<int>(seed),
+                metric.c_str(), value);
+    std::fflush(stdout);
+    if (options_.out.empty()) return;
+    if (!results_.is_open()) {
+      results_.open(options_.out);
+      results_ << "task,model,preset,protocol,action,frame,horizon_ms,seed,metric,value\n";
+    }
+    results_ << fmt::format("synthesis,{},{},without {},{},,,{},{},{:.6g}\n", row.name,
+                            options_.preset, fold, options_.action_class, seed, metric, value)
+             << std::flush;
+  }
+
+  const Options options_;
+  const std::vector<motion::LabelledClip> clips_;
+  Features features_;  // of clips_
+  std::ofstream results_;
+};
+
 Status Run(const Options& options) {
-  POISE_ASSIGN_OR_RETURN(
-      motion::ClipSet clips,
-      motion::ReadClipFolder(options.data, {.action_class = options.action_class}));
-  synthesis::VaeTask task;
-  POISE_ASSIGN_OR_RETURN(task.config, Config(options));
-  task.clips = std::move(clips.clips);
-  task.fold = {.action_class = options.action_class, .held_out = options.left_out};
-  task.preset = options.preset;
-  if (options.lengths) return PrintLengths(task);
-  base::RunContext context;
-  context.seed = options.seed;
-  context.progress = PrintProgress;
-  POISE_ASSIGN_OR_RETURN(synthesis::VaeResult result, synthesis::TrainVae(task, context));
-  for (const auto& [name, value] : result.model.card.scores) {
-    std::printf("%-30s %.4f\n", name.c_str(), value);
-  }
-  if (!options.save.empty()) {
-    std::ofstream(options.save + "_curve.csv") << result.curve_csv;
-    std::ofstream(options.save + ".safetensors", std::ios::binary)
-        << artifacts::PackModel(std::move(result.model));
-  }
-  return absl::OkStatus();
+  POISE_ASSIGN_OR_RETURN(Table table, Table::Create(options));
+  return options.lengths ? table.PrintLengths() : table.Run();
 }
 
 }  // namespace
 }  // namespace poise
 
 int main(int argc, char** argv) {
+  poise::base::KeepFreedMemory();
   poise::Options options;
-  CLI::App app("Trains the VAE and measures what it makes.");
+  CLI::App app("Trains generators of motions and measures what they make.");
   app.add_option("--data", options.data, "Folder of clips")->required();
   app.add_option("--class", options.action_class, "Of the clips")->required();
-  app.add_option("--left-out", options.left_out, "Actor who is not learned from")->required();
+  app.add_option("--left-out", options.left_out, "Actors; default: each in turn");
+  app.add_option("--rows", options.rows, "training, gan, vae, adversarial, near, both");
   app.add_option("--preset", options.preset, "recommended or paper");
   app.add_option("--set", options.assignments, "KEY=VALUE of the training; repeatable");
-  app.add_option("--seed", options.seed);
-  app.add_option("--save", options.save, "Prefix for model and learning curve");
-  app.add_flag("--lengths", options.lengths, "Print the lengths of the motions and end");
+  app.add_option("--seeds", options.seeds, "Trainings of each network");
+  app.add_option("--first-seed", options.first_seed);
+  app.add_option("--samples", options.samples, "Motions that each network makes");
+  app.add_option("--save", options.save, "Prefix for models, learning curves and latent maps");
+  app.add_option("--out", options.out, "Results file (CSV)");
+  app.add_flag("--lengths", options.lengths, "Print the lengths of the training motions and end");
   CLI11_PARSE(app, argc, argv);
   const poise::Status status = poise::Run(options);
   if (status.ok()) return 0;

@@ -52,6 +52,7 @@ StatusOr<VaeConfig> VaeConfig::FromPreset(std::string_view preset) {
 
 std::vector<base::Field> VaeConfig::Fields() {
   std::vector<base::Field> fields = {
+      base::Text("generator", &generator, {"vae", "gan"}),
       base::Number("frame_rate", &frame_rate, 1, 1000),
       base::Text("root_unit", &root_unit, {"standardised", "metres", "authors"}),
       base::Number("smoothness_weight", &smoothness_weight, 0, kMaxWeight),
@@ -70,7 +71,13 @@ std::vector<base::Field> VaeConfig::Fields() {
 
 Status VaeConfig::Validate() const {
   VaeConfig copy = *this;
-  return base::CheckRanges(copy.Fields());
+  POISE_RETURN_IF_ERROR(base::CheckRanges(copy.Fields()));
+  if (generator == "gan" && !adversarial) {
+    return base::InvalidArgument(
+        "CONTRADICTING_SETTINGS", "adversarial",
+        "a GAN learns from its adversaries alone: adversarial must be true");
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace poise::synthesis

@@ -28,6 +28,9 @@ struct VaeNetConfig {
 struct VaeConfig {
   VaeNetConfig net;
 
+  /// vae | gan: the baseline of MotionAug sec. 4.1, the decoder alone, fed with noise, against the
+  /// two discriminators. Of the weights below only those of the adversaries count then.
+  std::string generator = "vae";
   double frame_rate = 30;  ///< [Hz] of the motions it learns
   /// Unit of the root position in input and loss: standardised (mean 0, deviation 1 of each axis
   /// over the training frames) | metres | authors (5 cm, in which it dominates the loss).

@@ -55,6 +55,11 @@ StatusOr<Eigen::MatrixXd> ReadMatrix(const base::TensorFile& file, const std::st
   return Eigen::MatrixXd(Eigen::Map<const RowMajor>(values.data(), rows, columns).cast<double>());
 }
 
+Status NotFinite() {
+  return base::MakeError(absl::StatusCode::kOutOfRange, "NOT_FINITE", "",
+                         "the VAE made a number that is none");
+}
+
 }  // namespace
 
 class VaeModel::Implementation {
@@ -69,14 +74,12 @@ class VaeModel::Implementation {
     const torch::NoGradGuard no_gradient;
     torch::Tensor z = torch::empty({1, latent.size()});
     std::copy(latent.begin(), latent.end(), z.data_ptr<float>());
-    const torch::Tensor poses = net->Decode(z).squeeze(0);
     const double length = net->EstimateLength(z).item<double>();
-    if (!torch::isfinite(poses).all().item<bool>() || !std::isfinite(length)) {
-      return base::MakeError(absl::StatusCode::kOutOfRange, "NOT_FINITE", "",
-                             "the VAE made a number that is none");
-    }
+    if (!std::isfinite(length)) return NotFinite();
     const int frames = static_cast<int>(
         std::clamp<double>(std::round(length), 1, static_cast<double>(normalisation.frames)));
+    const torch::Tensor poses = net->Decode(z, frames).squeeze(0);
+    if (!torch::isfinite(poses).all().item<bool>()) return NotFinite();
     return DecodePoses(UnstackMotion(poses, frames, normalisation.root), kCodec, name,
                        normalisation.skeleton, signature.frame_rate);
   }

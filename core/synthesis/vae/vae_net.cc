@@ -63,12 +63,12 @@ VaeDecoder::VaeDecoder(const VaeNetConfig& config, int frames, int width)
                             MakeLstm(config.embedding + 2 * config.clock, config.hidden, false))),
       pose_(register_module("pose", TwoLayers(config.hidden, config.embedding, width))) {}
 
-torch::Tensor VaeDecoder::forward(const torch::Tensor& z) {
+torch::Tensor VaeDecoder::forward(const torch::Tensor& z, int64_t count) {
   const torch::Tensor input = torch::relu(embed_->forward(z));
-  torch::Tensor inputs = input.unsqueeze(1).expand({z.size(0), frames_, input.size(1)});
+  torch::Tensor inputs = input.unsqueeze(1).expand({z.size(0), count, input.size(1)});
   if (frequencies_ > 0) {
-    const torch::Tensor clock = Clock(frames_, frequencies_, z.options());
-    inputs = torch::cat({inputs, clock.unsqueeze(0).expand({z.size(0), frames_, -1})}, 2);
+    const torch::Tensor clock = Clock(frames_, frequencies_, z.options()).narrow(0, 0, count);
+    inputs = torch::cat({inputs, clock.unsqueeze(0).expand({z.size(0), count, -1})}, 2);
   }
   return pose_->forward(learning::RunLstm(lstm_, inputs));
 }

@@ -39,8 +39,8 @@ class VaeEncoder : public torch::nn::Module {
 class VaeDecoder : public torch::nn::Module {
  public:
   VaeDecoder(const VaeNetConfig& config, int frames, int width);
-  /// z (batch, latent) -> poses (batch, frames, width)
-  torch::Tensor forward(const torch::Tensor& z);
+  /// z (batch, latent) -> the first `count` poses (batch, count, width) of `frames`.
+  torch::Tensor forward(const torch::Tensor& z, int64_t count);
 
  private:
   const int frames_;
@@ -58,7 +58,10 @@ class VaeNet : public torch::nn::Module {
   LatentGaussian Encode(const torch::Tensor& poses, const torch::Tensor& lengths) {
     return encoder_->forward(poses, lengths);
   }
-  torch::Tensor Decode(const torch::Tensor& z) { return decoder_->forward(z); }
+  torch::Tensor Decode(const torch::Tensor& z) { return Decode(z, frames_); }
+  torch::Tensor Decode(const torch::Tensor& z, int64_t count) {
+    return decoder_->forward(z, count);
+  }
   /// z -> frames (batch), not rounded.
   torch::Tensor EstimateLength(const torch::Tensor& z);
 

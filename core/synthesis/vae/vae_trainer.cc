@@ -10,6 +10,8 @@
 #include "core/learning/nn/trainer.h"
 #include "core/motion/joint_roles.h"
 #include "core/motion/skeleton_json.h"
+#include "core/synthesis/vae/latent_map.h"
+#include "core/synthesis/vae/latent_sampler.h"
 #include "core/synthesis/vae/vae_loss_net.h"
 #include "core/synthesis/vae/vae_net.h"
 #include "core/synthesis/vae/vae_tensors_net.h"
@@ -20,7 +22,7 @@ namespace {
 using learning::Batch;
 using learning::Loss;
 
-enum Stream : uint64_t { kFirstWeights, kTraining };
+enum Stream : uint64_t { kFirstWeights, kTraining, kLatentMap };
 
 int LongestFrames(const std::vector<PreparedMotion>& motions) {
   Eigen::Index longest = 0;
@@ -70,8 +72,9 @@ class VaeLearner {
     learning::TrainingSetup setup;
     setup.num_samples = static_cast<int64_t>(motions_.size());
     setup.seed = seed;
-    setup.networks.push_back({"vae", net_, config_.vae_optimizer,
-                              [this](const Batch& batch) { return VaeLoss(batch); }});
+    setup.networks.push_back({"vae", net_, config_.vae_optimizer, [this](const Batch& batch) {
+                                return IsGan() ? GanLoss(batch) : VaeLoss(batch);
+                              }});
     if (!config_.adversarial) return setup;
     setup.networks.push_back({"frame_discriminator", frame_judge_, config_.discriminator_optimizer,
                               [this](const Batch&) { return FrameJudgeLoss(); }});
@@ -91,11 +94,9 @@ class VaeLearner {
 
   // Weights, and what each motion was encoded to.
   StatusOr<base::TensorFile> Weights() {
-    const torch::NoGradGuard no_gradient;
     base::TensorFile file;
     POISE_RETURN_IF_ERROR(learning::AppendState(*net_, "net/", file));
-    const MotionBatch batch = StackFirst(motions_, frames_, root_);
-    const LatentGaussian codes = net_->Encode(batch.poses, batch.lengths);
+    const LatentGaussian codes = Codes();
     POISE_ASSIGN_OR_RETURN(file.tensors["latents/mean"], learning::ToRecord(codes.mean));
     POISE_ASSIGN_OR_RETURN(file.tensors["latents/log_variance"],
                            learning::ToRecord(codes.log_variance));
@@ -108,6 +109,20 @@ class VaeLearner {
             {"skeleton", motion::SkeletonToJson(*motions_.front().skeleton)}};
   }
   const std::vector<PreparedMotion>& motions() const { return motions_; }
+  bool IsGan() const { return config_.generator == "gan"; }
+
+  // What new motions are drawn near to: of a GAN, whatever the mode, the noise that it learned
+  // from.
+  LatentGaussian Codes() {
+    const torch::NoGradGuard no_gradient;
+    if (IsGan()) {
+      const torch::Tensor zeros =
+          torch::zeros({static_cast<int64_t>(motions_.size()), config_.net.latent});
+      return {zeros, zeros};
+    }
+    const MotionBatch batch = StackFirst(motions_, frames_, root_);
+    return net_->Encode(batch.poses, batch.lengths);
+  }
 
  private:
   MotionBatch Draw(const Batch& batch) const {
@@ -136,14 +151,41 @@ class VaeLearner {
     add("smoothness", config_.smoothness_weight, SmoothnessLoss(decoded, valid));
     add("kl", config_.kl_weight, KlLoss(gaussian));
     add("length", config_.length_weight, LengthLoss(length, real_.lengths));
-    made_ = made.detach();
-    made_lengths_ = length.detach().round().clamp(1, frames_).to(torch::kInt64);
-    if (!config_.adversarial) return loss;
-    const Frozen frame_judge(*frame_judge_), sequence_judge(*sequence_judge_);
-    add("frame_adversary", config_.frame_adversary_weight, -frame_judge_->forward(made).mean());
-    add("sequence_adversary", config_.sequence_adversary_weight,
-        -sequence_judge_->forward(made, made_lengths_).mean());
+    if (config_.adversarial) {
+      AddAdversaries(made, length.detach().round().clamp(1, frames_).to(torch::kInt64), loss);
+    }
     return loss;
+  }
+
+  // Source: reference sec. 2.8. The authors' length estimator gets no gradient; here the first
+  // number of the noise orders the motions of a batch by length, and the estimator learns which
+  // length that is: samples are as long as the training motions, whatever else they are.
+  StatusOr<Loss> GanLoss(const Batch& batch) {
+    real_ = Draw(batch);
+    const int64_t count = real_.lengths.size(0);
+    const torch::Tensor z = torch::randn({count, config_.net.latent});
+    const torch::Tensor order = z.select(1, 0).argsort();
+    const torch::Tensor lengths =
+        torch::empty_like(real_.lengths).index_copy(0, order, std::get<0>(real_.lengths.sort()));
+    Loss loss;
+    const torch::Tensor length_loss = LengthLoss(net_->EstimateLength(z), lengths);
+    loss.terms["length"] = length_loss.item<double>();
+    loss.total = config_.length_weight * length_loss;
+    AddAdversaries(net_->Decode(z), lengths, loss);
+    return loss;
+  }
+
+  // What the discriminators say of made motions, which they are shown next.
+  void AddAdversaries(const torch::Tensor& made, const torch::Tensor& lengths, Loss& loss) {
+    made_ = made.detach();
+    made_lengths_ = lengths;
+    const Frozen frame_judge(*frame_judge_), sequence_judge(*sequence_judge_);
+    const torch::Tensor frame = -frame_judge_->forward(made).mean();
+    const torch::Tensor sequence = -sequence_judge_->forward(made, lengths).mean();
+    loss.terms["frame_adversary"] = frame.item<double>();
+    loss.terms["sequence_adversary"] = sequence.item<double>();
+    loss.total = loss.total + config_.frame_adversary_weight * frame +
+                 config_.sequence_adversary_weight * sequence;
   }
 
   StatusOr<Loss> FrameJudgeLoss() {
@@ -171,10 +213,27 @@ class VaeLearner {
   torch::Tensor made_, made_lengths_;
 };
 
+Eigen::MatrixXd ToMatrix(const torch::Tensor& rows) {
+  using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const torch::Tensor numbers = rows.contiguous();
+  return Eigen::Map<const RowMajor>(numbers.data_ptr<float>(), rows.size(0), rows.size(1))
+      .cast<double>();
+}
+
+std::string DrawLatents(const LatentGaussian& codes, uint64_t seed) {
+  constexpr int kSamples = 200;
+  const Eigen::MatrixXd means = ToMatrix(codes.mean);
+  const LatentSampler sampler(means, ToMatrix(codes.log_variance.exp()), {}, seed);
+  Eigen::MatrixXd samples(kSamples, means.cols());
+  base::Random random(base::DeriveSeed(seed, {kLatentMap}));
+  for (int i = 0; i < kSamples; ++i) samples.row(i) = sampler.Draw(random).transpose();
+  return LatentMap(means, sampler.clusters(), samples);
+}
+
 api::ModelCard MakeCard(const VaeTask& task, uint64_t seed) {
   VaeConfig config = task.config;
   api::ModelCard card;
-  card.family = "vae";
+  card.family = "vae";  // also of a GAN: its decoder is the same
   card.preset = task.preset;
   card.config = base::FieldsToJson(config.Fields());
   card.signature = {.roles = motion::RequiredRoles(),
@@ -187,6 +246,18 @@ api::ModelCard MakeCard(const VaeTask& task, uint64_t seed) {
   card.seed = seed;
   card.program_version = base::Version();
   return card;
+}
+
+// A GAN has none of these: it encodes nothing.
+void AddScores(VaeLearner& learner, const std::vector<PreparedMotion>& held_out,
+               api::ModelCard& card) {
+  const PoseError error = learner.Reconstruct(learner.motions());
+  card.scores["reconstruction_rad"] = error.rotation_rad;
+  card.scores["reconstruction_m"] = error.root_m;
+  if (held_out.empty()) return;
+  const PoseError of_actor = learner.Reconstruct(held_out);
+  card.scores["held_out_reconstruction_rad"] = of_actor.rotation_rad;
+  card.scores["held_out_reconstruction_m"] = of_actor.root_m;
 }
 
 StatusOr<VaeResult> Train(const VaeTask& task, const base::RunContext& context,
@@ -210,16 +281,12 @@ StatusOr<VaeResult> Train(const VaeTask& task, const base::RunContext& context,
   card.normalisation = learner.Normalisation();
   card.trained_on = fold.description;
   card.steps = report.steps;
-  const PoseError error = learner.Reconstruct(learner.motions());
-  card.scores["reconstruction_rad"] = error.rotation_rad;
-  card.scores["reconstruction_m"] = error.root_m;
-  if (!fold.held_out.empty()) {
-    const PoseError held_out = learner.Reconstruct(fold.held_out);
-    card.scores["held_out_reconstruction_rad"] = held_out.rotation_rad;
-    card.scores["held_out_reconstruction_m"] = held_out.root_m;
-  }
+  if (!learner.IsGan()) AddScores(learner, fold.held_out, card);
   card.weights_sha256 = artifacts::WeightsDigest(result.model.weights);
   result.curve_csv = trainer->curve().ToCsv();
+  // A network of one latent dimension has no plane.
+  if (task.config.net.latent > 1)
+    result.latent_map_svg = DrawLatents(learner.Codes(), context.seed);
   result.curve_svg = trainer->curve().ToSvg("VAE, " + fold.description);
   return result;
 }

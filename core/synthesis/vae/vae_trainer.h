@@ -30,14 +30,15 @@ struct VaeResult {
   artifacts::ModelArtifact model;
   std::string curve_csv;
   std::string curve_svg;
+  std::string latent_map_svg;  ///< LatentMap of the training motions and 200 samples near them
 };
 
 /// Learns one VAE (reference sec. 2) with the seed of `context`. `checkpoint` is what an earlier
 /// attempt gave to `sink`; with one thread the result is then the same bit for bit.
 /// The card's scores: `reconstruction_rad` and `reconstruction_m`, mean geodesic error of all
 /// joints and mean distance of the root when motions are encoded to the mean and decoded; the same
-/// with `held_out_` of the actor who was held out. Errors: those of VaeConfig::Validate,
-/// PrepareFold and learning::Trainer.
+/// with `held_out_` of the actor who was held out; of a GAN there are none. Errors: those of
+/// VaeConfig::Validate, PrepareFold and learning::Trainer.
 StatusOr<VaeResult> TrainVae(const VaeTask& task, const base::RunContext& context,
                              const std::optional<std::string>& checkpoint = {},
                              const learning::CheckpointSink& sink = {});

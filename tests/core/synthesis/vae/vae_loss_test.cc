@@ -186,6 +186,17 @@ TEST(VaeLossTest, GradientsThroughTheNetworksAreThoseOfFiniteDifferences) {
   EXPECT_LT(GradientError(judged, RandomPoses(7)), 1e-6);
 }
 
+TEST(VaeNetTest, TheFirstPosesAreThoseOfTheWholeMotion) {
+  torch::manual_seed(2);
+  const VaeNetConfig small{
+      .latent = 3, .hidden = 5, .embedding = 4, .length_hidden = 2, .clock = 2};
+  VaeNet net(small, kFrames, kWidth);
+  const torch::Tensor z = torch::randn({kBatch, 3});
+  const torch::Tensor whole = net.Decode(z);
+  EXPECT_EQ(whole.size(1), kFrames);
+  EXPECT_TRUE(torch::allclose(net.Decode(z, 3), whole.narrow(1, 0, 3), 1e-5, 1e-6));
+}
+
 TEST(VaeNetTest, WhatStandsBehindTheEndOfAMotionDoesNotChangeItsCode) {
   torch::manual_seed(4);
   const VaeNetConfig small{

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/motion/dataset/clip_folder.h"
@@ -101,6 +102,7 @@ TEST(VaeTrainerTest, TheCardTellsWhatWasLearnedAndFromWhom) {
   EXPECT_TRUE(card.scores.contains("held_out_reconstruction_rad"));
   EXPECT_EQ(card.weights_sha256, artifacts::WeightsDigest(result->model.weights));
   EXPECT_THAT(result->curve_csv, ::testing::HasSubstr("frame_discriminator.loss"));
+  EXPECT_THAT(result->latent_map_svg, ::testing::HasSubstr("3 training motions"));
 }
 
 TEST(VaeTrainerTest, ClassesAndActorsThatAreNotThereAreRefusedWithWhatThereIs) {
@@ -109,6 +111,37 @@ TEST(VaeTrainerTest, ClassesAndActorsThatAreNotThereAreRefusedWithWhatThereIs) {
   EXPECT_THAT(base::Message(TrainVae(task, {}).status()), ::testing::HasSubstr("actions: swing"));
   task.fold = {.action_class = "swing", .held_out = "tr"};
   EXPECT_THAT(base::Message(TrainVae(task, {}).status()), ::testing::HasSubstr("actors: a, b"));
+}
+
+TEST(VaeTrainerTest, AGanMakesMotionsAsLongAsTheTrainingClips) {
+  VaeTask task = SmallTask(300);
+  task.config.generator = "gan";
+  task.config.trainer.batch_size = 8;
+  const auto result = TrainVae(task, WithSeed(1));
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_TRUE(result->model.card.scores.empty());
+  const auto model = VaeModel::Create(result->model);
+  ASSERT_TRUE(model.ok()) << model.status();
+  const LatentSampler sampler = (*model)->MakeSampler({});
+  base::Random random(3);
+  int shortest = 1000, longest = 0;
+  for (int i = 0; i < 50; ++i) {
+    const auto clip = (*model)->Decode(sampler.Draw(random), "made");
+    ASSERT_TRUE(clip.ok()) << clip.status();
+    shortest = std::min(shortest, clip->num_frames());
+    longest = std::max(longest, clip->num_frames());
+  }
+  // The training clips have 15, 18 and 21 frames.
+  EXPECT_GE(shortest, 10);
+  EXPECT_LT(shortest, longest);
+  EXPECT_LE(longest, 21);
+}
+
+TEST(VaeTrainerTest, AGanWithoutAdversariesIsRefused) {
+  VaeTask task = SmallTask(5);
+  task.config.generator = "gan";
+  task.config.adversarial = false;
+  EXPECT_EQ(base::ErrorReason(TrainVae(task, {}).status()), "CONTRADICTING_SETTINGS");
 }
 
 TEST(VaeModelTest, SamplesAreClipsOfTheModelsBodyThatDependOnTheSeedAlone) {

@@ -162,7 +162,7 @@ TEST_F(ModelsCommandTest, AModelIsImportedExportedAndDeleted) {
   std::ifstream again(Path("again"), std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(again), {}};
   EXPECT_EQ(bytes, artifacts::PackModel(model));
-  EXPECT_EQ(Poise({"models", "list"}).JsonLines().back()["card"]["family"], "vae");
+  EXPECT_EQ(Poise({"models", "list"}).JsonLines().front()["card"]["family"], "vae");
   EXPECT_EQ(Poise({"models", "default", "kick@1"}).exit_code, 0);
   EXPECT_EQ(Poise({"models", "delete", "kick@1"}).exit_code, 0);
   EXPECT_EQ(Poise({"models", "get", "kick"}).exit_code, 3);

@@ -255,6 +255,9 @@ class Table {
 };
 
 Status Run(const Options& options) {
+  if (const auto folder = std::filesystem::path(options.save).parent_path(); !folder.empty()) {
+    std::filesystem::create_directories(folder);
+  }
   POISE_ASSIGN_OR_RETURN(Table table, Table::Create(options));
   return options.lengths ? table.PrintLengths() : table.Run();
 }

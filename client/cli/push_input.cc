@@ -99,7 +99,7 @@ StatusOr<api::PushPerson> ReadPerson(const Json& json, const std::filesystem::pa
 StatusOr<api::PushForce> ReadPush(const Json& json) {
   if (json.is_string()) return ParsePush(json.get<std::string>());
   api::PushForce push;
-  push.person = json.at("person").get<int>();
+  push.person = base::IntegerFrom<int>(json.at("person"));
   push.start_s = json.value("start_s", 0.0);
   push.duration_s = json.value("duration_s", kPushSeconds);
   push.impulse_ns = OnFloor(json.at("impulse_ns"));

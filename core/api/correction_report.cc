@@ -28,8 +28,8 @@ Status ReadMeasures(const Json& json, CorrectionMeasures& measures) {
 StatusOr<CorrectedVariantReport> ReadVariant(const Json& json) {
   CorrectedVariantReport variant;
   if (!json.at("file").is_null()) variant.file = json["file"].get<std::string>();
-  variant.index = json.at("index").get<int>();
-  variant.seed = json.at("seed").get<uint64_t>();
+  variant.index = base::IntegerFrom<int>(json.at("index"));
+  variant.seed = base::IntegerFrom<uint64_t>(json.at("seed"));
   variant.completed = json.at("completed").get<bool>();
   variant.effort = json.at("effort").get<std::string>();
   POISE_RETURN_IF_ERROR(base::FieldsFromJson(json.at("before"), variant.before.Fields()));
@@ -57,7 +57,7 @@ StatusOr<ZeroPolicyReport> ReadZeroPolicy(Json json) {
 StatusOr<CorrectedClipReport> ReadClip(const Json& json) {
   CorrectedClipReport report;
   report.name = json.at("name").get<std::string>();
-  report.samples = json.at("samples").get<int64_t>();
+  report.samples = base::IntegerFrom<int64_t>(json.at("samples"));
   report.stopped_by = json.at("stopped_by").get<std::string>();
   if (!json.at("zero_policy").is_null()) {
     POISE_ASSIGN_OR_RETURN(report.zero_policy, ReadZeroPolicy(json["zero_policy"]));

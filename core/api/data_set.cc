@@ -1,6 +1,16 @@
 #include "core/api/data_set.h"
 
 namespace poise::api {
+namespace {
+
+// Clips by name of an action or actor.
+std::map<std::string, int> Counts(const base::Json& json) {
+  std::map<std::string, int> counts;
+  for (const auto& [name, count] : json.items()) counts[name] = base::IntegerFrom<int>(count);
+  return counts;
+}
+
+}  // namespace
 
 std::string DataSet::fingerprint() const { return artifact.substr(artifact.find('/') + 1); }
 
@@ -27,12 +37,12 @@ StatusOr<DataSet> DataSetFromJson(const base::Json& json) {
   try {
     set.name = json.at("name");
     set.artifact = json.at("artifact");
-    set.size_bytes = json.at("size_bytes");
-    set.clips = json.at("clips");
-    set.frames = json.at("frames");
+    set.size_bytes = base::IntegerFrom<int64_t>(json.at("size_bytes"));
+    set.clips = base::IntegerFrom<int>(json.at("clips"));
+    set.frames = base::IntegerFrom<int64_t>(json.at("frames"));
     set.duration_s = json.at("duration_s");
-    set.actions = json.at("actions").get<std::map<std::string, int>>();
-    set.actors = json.at("actors").get<std::map<std::string, int>>();
+    set.actions = Counts(json.at("actions"));
+    set.actors = Counts(json.at("actors"));
     set.license = json.at("license");
     set.notes = json.at("notes").get<std::vector<std::string>>();
     const std::string time = json.at("create_time");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <type_traits>
 
 namespace poise::api {
 namespace {
@@ -14,7 +15,11 @@ constexpr size_t kMaxNameLength = 64;
 template <typename Value>
 Status Read(const base::Json& json, const char* key, Value& value) {
   try {
-    value = json.at(key).get<Value>();
+    if constexpr (std::is_integral_v<Value>) {
+      value = base::IntegerFrom<Value>(json.at(key));
+    } else {
+      value = json.at(key).get<Value>();
+    }
     return absl::OkStatus();
   } catch (const base::Json::exception&) {
     return base::InvalidArgument(

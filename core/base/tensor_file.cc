@@ -61,9 +61,11 @@ StatusOr<TensorRecord> DecodeRecord(const std::string& name, const Json& entry,
                                          name, dtype));
     }
     record.type = type->type;
-    record.shape = entry.at("shape").get<std::vector<int64_t>>();
-    begin = entry.at("data_offsets").at(0);
-    end = entry.at("data_offsets").at(1);
+    for (const Json& size : entry.at("shape").get_ref<const Json::array_t&>()) {
+      record.shape.push_back(IntegerFrom<int64_t>(size));
+    }
+    begin = IntegerFrom<int64_t>(entry.at("data_offsets").at(0));
+    end = IntegerFrom<int64_t>(entry.at("data_offsets").at(1));
   } catch (const Json::exception&) {
     return Malformed(what, fmt::format("'{}' needs dtype, shape and data_offsets", name));
   }

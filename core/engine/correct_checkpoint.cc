@@ -46,7 +46,7 @@ StatusOr<pipeline::LearnedPolicy> PolicyFromJson(const Json& json) {
   policy.finished = json.at("finished").get<bool>();
   policy.stopped_by = json.at("stopped_by").get<std::string>();
   POISE_ASSIGN_OR_RETURN(policy.curve, CurveFromJson(json.at("curve")));
-  policy.samples = json.at("samples").get<int64_t>();
+  policy.samples = base::IntegerFrom<int64_t>(json.at("samples"));
   return policy;
 }
 
@@ -58,11 +58,11 @@ Json VariantJson(const pipeline::CorrectedVariant& variant) {
 
 StatusOr<pipeline::CorrectedVariant> VariantFromJson(const Json& json) {
   pipeline::CorrectedVariant variant;
-  variant.source_index = json.at("source_index").get<int>();
+  variant.source_index = base::IntegerFrom<int>(json.at("source_index"));
   POISE_ASSIGN_OR_RETURN(variant.report, api::CorrectedVariantFromJson(json.at("report")));
   variant.file_data = json.at("file_data").get<std::string>();
   POISE_ASSIGN_OR_RETURN(variant.curve, CurveFromJson(json.at("curve")));
-  variant.samples = json.at("samples").get<int64_t>();
+  variant.samples = base::IntegerFrom<int64_t>(json.at("samples"));
   variant.timed_out = json.at("timed_out").get<bool>();
   return variant;
 }
@@ -80,7 +80,7 @@ Json Present(const std::vector<std::optional<Value>>& values, Encode encode) {
 template <typename Value, typename Decode>
 Status ReadPresent(const Json& json, Decode decode, std::vector<std::optional<Value>>& values) {
   for (const Json& entry : json) {
-    const auto index = entry.at("index").get<size_t>();
+    const auto index = base::IntegerFrom<size_t>(entry.at("index"));
     if (index >= values.size()) return Corrupt();
     POISE_ASSIGN_OR_RETURN(values[index], decode(entry.at("value")));
   }

@@ -15,7 +15,7 @@ Vec3 VectorFromJson(const Json& json) {
 
 Joint JointFromJson(const Json& json) {
   Joint joint{.name = json.at("name"),
-              .parent = json.at("parent"),
+              .parent = base::IntegerFrom<int>(json.at("parent")),
               .offset = VectorFromJson(json.at("offset")),
               .end_site = {}};
   if (json.contains("end_site")) joint.end_site = VectorFromJson(json.at("end_site"));

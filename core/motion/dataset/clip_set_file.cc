@@ -67,7 +67,7 @@ StatusOr<ClipSet> FromJson(const Json& json, const base::TensorFile& file, std::
     skeletons.push_back(std::move(skeleton));
   }
   for (const Json& entry : json.at("clips")) {
-    const size_t skeleton = entry.at("skeleton");
+    const auto skeleton = base::IntegerFrom<size_t>(entry.at("skeleton"));
     if (skeleton >= skeletons.size()) return Malformed(what, "a clip has no skeleton");
     POISE_ASSIGN_OR_RETURN(Clip clip, ReadClip(file, set.clips.size(), entry.at("name"),
                                                skeletons[skeleton], entry.at("frame_rate")));

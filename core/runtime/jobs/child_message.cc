@@ -78,7 +78,7 @@ StatusOr<ChildMessage> MessageFromJson(const Json& json) {
   if (json.contains("result")) return OutputFromJson(json["result"]);
   const Json& checkpoint = json.at("checkpoint");
   return ChildCheckpoint{.file = checkpoint.at("file").get<std::string>(),
-                         .step = checkpoint.at("step").get<int64_t>()};
+                         .step = base::IntegerFrom<int64_t>(checkpoint.at("step"))};
 }
 
 }  // namespace
@@ -107,16 +107,16 @@ StatusOr<ChildStart> DecodeStart(std::string_view line) {
     ChildStart start;
     RunInput& input = start.input;
     input.job = json.at("job").get<std::string>();
-    input.attempt = json.at("attempt").get<int>();
+    input.attempt = base::IntegerFrom<int>(json.at("attempt"));
     input.spec.kind = json.at("kind").get<std::string>();
     input.spec.parameters = json.at("parameters");
-    input.seed = json.at("seed").get<uint64_t>();
+    input.seed = base::IntegerFrom<uint64_t>(json.at("seed"));
     input.trace_id = json.at("trace_id").get<std::string>();
     input.folder = json.at("folder").get<std::string>();
     for (const auto& [artifact, path] : json.at("inputs").items()) {
       input.inputs[artifact] = path.get<std::string>();
     }
-    input.checkpoint_step = json.at("checkpoint_step").get<int64_t>();
+    input.checkpoint_step = base::IntegerFrom<int64_t>(json.at("checkpoint_step"));
     start.checkpoint_file = json.at("checkpoint_file").get<std::string>();
     start.checkpoint_interval = absl::Seconds(json.at("checkpoint_interval_s").get<double>());
     if (json.contains("deadline_in_s")) {

@@ -25,7 +25,7 @@ void PutDuration(Json& json, const char* key, absl::Duration duration) {
 }
 
 absl::Duration GetDuration(const Json& json, const char* key) {
-  return json.contains(key) ? absl::Milliseconds(json.at(key).get<int64_t>())
+  return json.contains(key) ? absl::Milliseconds(base::IntegerFrom<int64_t>(json.at(key)))
                             : absl::InfiniteDuration();
 }
 
@@ -126,8 +126,8 @@ StatusOr<std::map<std::string, std::string>> ParseLabels(std::string_view text) 
 
 StatusOr<JobLimits> ParseLimits(std::string_view text) {
   return Parse(text, [](const Json& json) {
-    return JobLimits{.max_errors = json.at("max_errors").get<int>(),
-                     .max_losses = json.at("max_losses").get<int>(),
+    return JobLimits{.max_errors = base::IntegerFrom<int>(json.at("max_errors")),
+                     .max_losses = base::IntegerFrom<int>(json.at("max_losses")),
                      .deadline = GetDuration(json, "deadline_ms"),
                      .stall_timeout = GetDuration(json, "stall_timeout_ms"),
                      .cancel_grace = GetDuration(json, "cancel_grace_ms")};
@@ -136,8 +136,8 @@ StatusOr<JobLimits> ParseLimits(std::string_view text) {
 
 StatusOr<Progress> ParseProgress(std::string_view text) {
   return Parse(text, [](const Json& json) {
-    Progress progress{.step = json.at("step").get<int64_t>(),
-                      .total = json.at("total").get<int64_t>(),
+    Progress progress{.step = base::IntegerFrom<int64_t>(json.at("step")),
+                      .total = base::IntegerFrom<int64_t>(json.at("total")),
                       .message = json.at("message").get<std::string>()};
     for (const auto& [name, value] : json.at("metrics").items()) {
       // JSON has no number for what is not finite.
@@ -150,7 +150,7 @@ StatusOr<Progress> ParseProgress(std::string_view text) {
 
 StatusOr<JobError> ParseError(std::string_view text) {
   return Parse(text, [](const Json& json) {
-    return JobError{.code = static_cast<absl::StatusCode>(json.at("code").get<int>()),
+    return JobError{.code = static_cast<absl::StatusCode>(base::IntegerFrom<int>(json.at("code"))),
                     .reason = json.at("reason").get<std::string>(),
                     .message = json.at("message").get<std::string>(),
                     .field = json.at("field").get<std::string>()};
@@ -160,8 +160,8 @@ StatusOr<JobError> ParseError(std::string_view text) {
 StatusOr<JobCheckpoint> ParseCheckpoint(std::string_view text) {
   return Parse(text, [](const Json& json) {
     return JobCheckpoint{.artifact = json.at("artifact").get<std::string>(),
-                         .step = json.at("step").get<int64_t>(),
-                         .attempt = json.at("attempt").get<int>()};
+                         .step = base::IntegerFrom<int64_t>(json.at("step")),
+                         .attempt = base::IntegerFrom<int>(json.at("attempt"))};
   });
 }
 
@@ -171,7 +171,7 @@ StatusOr<std::vector<JobArtifact>> ParseArtifacts(std::string_view text) {
     for (const Json& item : json) {
       artifacts.push_back({.name = item.at("name").get<std::string>(),
                            .artifact = item.at("artifact").get<std::string>(),
-                           .size_bytes = item.at("size_bytes").get<int64_t>(),
+                           .size_bytes = base::IntegerFrom<int64_t>(item.at("size_bytes")),
                            .media_type = item.at("media_type").get<std::string>()});
     }
     return artifacts;

@@ -21,5 +21,16 @@ TEST(JsonTest, ANumberOutOfRangeIsAnErrorAndNoException) {
   EXPECT_NE(Message(json.status()).find("settings"), std::string::npos);
 }
 
+TEST(JsonTest, AWholeNumberIsTakenOnlyWhereItFits) {
+  EXPECT_EQ(IntegerFrom<int>(Json(7)), 7);
+  EXPECT_EQ(IntegerFrom<int>(Json(-7)), -7);
+  EXPECT_EQ(IntegerFrom<uint64_t>(Json(UINT64_MAX)), UINT64_MAX);
+  EXPECT_THROW(IntegerFrom<int64_t>(Json(UINT64_MAX)), Json::type_error);
+  EXPECT_THROW(IntegerFrom<uint64_t>(Json(-1)), Json::type_error);
+  EXPECT_THROW(IntegerFrom<int>(Json(int64_t{1} << 31)), Json::type_error);
+  EXPECT_THROW(IntegerFrom<int>(Json(1e300)), Json::type_error);
+  EXPECT_THROW(IntegerFrom<int>(Json("7")), Json::type_error);
+}
+
 }  // namespace
 }  // namespace poise::base

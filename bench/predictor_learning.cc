@@ -1,4 +1,4 @@
-// Trains the recommended predictor on a published benchmark and tests it beside the floors:
+// Trains a predictor on a published benchmark and tests it beside the floors:
 //
 //   predictor_learning --data DIR/cmu --protocol seeded75 all --seeds 3 --out r.csv
 //   predictor_learning --data DIR/hdm05 --benchmark hdm05 --class kickLFront1Reps --left-out tr
@@ -170,7 +170,7 @@ Status Run(const Options& options) {
 
 int main(int argc, char** argv) {
   poise::Options options;
-  CLI::App app("Trains the recommended predictor and tests it beside the floors.");
+  CLI::App app("Trains a predictor and tests it beside the floors.");
   app.add_option("--data", options.data, "Folder of the benchmark")->required();
   app.add_option("--benchmark", options.benchmark)->check(CLI::IsMember({"cmu", "hdm05"}));
   app.add_option("--class", options.action_class, "HDM05 class; all without it");
@@ -182,7 +182,7 @@ int main(int argc, char** argv) {
   app.add_option("--first-seed", options.first_seed);
   app.add_option("--set", options.assignments, "KEY=VALUE of the training; repeatable");
   app.add_option("--out", options.out, "Results file (CSV)");
-  app.add_option("--preset", options.preset, "recommended");
+  app.add_option("--preset", options.preset, "recommended or gcn");
   app.add_option("--license", options.license, "Of the data, for the model's card");
   app.add_option("--save", options.save, "Prefix for folders of models and for learning curves");
   CLI11_PARSE(app, argc, argv);

@@ -5,6 +5,7 @@
 
 #include "core/prediction/constant_velocity/constant_velocity.h"
 #include "core/prediction/ensemble/ensemble_predictor.h"
+#include "core/prediction/gcn/gcn_predictor.h"
 #include "core/prediction/mixer/mixer_predictor.h"
 #include "core/prediction/training/training_config.h"
 #include "core/prediction/zero_velocity/zero_velocity.h"
@@ -20,6 +21,11 @@ PredictorPtr Make() {
 StatusOr<PredictorPtr> LoadMixer(const PredictorTraining& config, const NetworkBody& body,
                                  const base::TensorFile& weights) {
   return MixerPredictor::Create(config.mixer, body, weights);
+}
+
+StatusOr<PredictorPtr> LoadGcn(const PredictorTraining& config, const NetworkBody& body,
+                               const base::TensorFile& weights) {
+  return GcnPredictor::Create(config.gcn, body, weights);
 }
 
 struct Floor {
@@ -40,6 +46,7 @@ struct Family {
 
 constexpr Family kFamilies[] = {
     {"mixer", LoadMixer},
+    {"gcn", LoadGcn},
 };
 
 StatusOr<const Family*> FindFamily(const std::string& name) {

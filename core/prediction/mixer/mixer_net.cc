@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "core/prediction/tensors/dct.h"
 #include "core/prediction/tensors/rotation_tensors.h"
 
 namespace poise::prediction {
@@ -25,19 +25,6 @@ Tensor JointIndices(const NetworkBody& body) {
 }
 
 }  // namespace
-
-Tensor DctMatrix(int frames) {
-  Tensor matrix = torch::empty({frames, frames});
-  auto entry = matrix.accessor<float, 2>();
-  for (int k = 0; k < frames; ++k) {
-    const double weight = std::sqrt((k == 0 ? 1.0 : 2.0) / frames);
-    for (int i = 0; i < frames; ++i) {
-      entry[k][i] =
-          static_cast<float>(weight * std::cos(std::numbers::pi * (i + 0.5) * k / frames));
-    }
-  }
-  return matrix;
-}
 
 MixerNet::MixerNet(const MixerConfig& config, const NetworkBody& body, EulerMeasure measure)
     : config_(config), measure_(std::move(measure)), joints_(JointIndices(body)) {

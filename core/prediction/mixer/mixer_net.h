@@ -59,9 +59,6 @@ class MixerNet : public PredictorNet {
   torch::nn::Linear joint_out_ = nullptr, root_out_ = nullptr;
 };
 
-/// Orthonormal DCT-II matrix, (coefficient, frame).
-torch::Tensor DctMatrix(int frames);
-
 }  // namespace poise::prediction
 
 #endif  // POISE_CORE_PREDICTION_MIXER_MIXER_NET_H_

@@ -9,6 +9,7 @@
 #include "core/learning/nn/module_state.h"
 #include "core/learning/nn/trainer.h"
 #include "core/motion/dataset/windows.h"
+#include "core/prediction/gcn/gcn_net.h"
 #include "core/prediction/mixer/mixer_net.h"
 #include "core/prediction/network_body.h"
 #include "core/prediction/tensors/ensemble_net.h"
@@ -40,12 +41,14 @@ std::vector<int> Starts(const motion::Clip& clip, int window, int step) {
   return starts;
 }
 
-/// Windows to learn from: every sequence is drawn as often as any other, however long it is (of CMU
-/// two of eight actions have two thirds of the frames), then one of its variants, then a window.
-class BalancedWindows {
+/// Windows to learn from. Balanced, every sequence is drawn as often as any other, however long it
+/// is (of CMU two of eight actions have two thirds of the frames), then one of its variants, then a
+/// window; else every window equally often.
+class TrainingWindows {
  public:
   /// `spare` of a window's frames may lie after the end of its sequence.
-  BalancedWindows(const TrainingClips& clips, int window, int spare) : windows_(window) {
+  TrainingWindows(const TrainingClips& clips, int window, int spare, bool balanced)
+      : windows_(window), balanced_(balanced) {
     for (const std::vector<motion::Clip>& variants : clips.train) {
       std::vector<Range>& ranges = sequences_.emplace_back();
       for (const motion::Clip& clip : variants) {
@@ -60,6 +63,10 @@ class BalancedWindows {
   PoseTensors Draw(size_t count, base::Random& random) const {
     std::vector<int64_t> chosen(count);
     for (int64_t& window : chosen) {
+      if (!balanced_) {
+        window = static_cast<int64_t>(random.Index(windows_.size()));
+        continue;
+      }
       const std::vector<Range>& ranges = sequences_[random.Index(sequences_.size())];
       const Range& range = ranges[random.Index(ranges.size())];
       window = range.first + static_cast<int64_t>(random.Index(range.count));
@@ -72,6 +79,7 @@ class BalancedWindows {
     int64_t first, count;
   };
   PoseWindows windows_;
+  const bool balanced_;
   std::vector<std::vector<Range>> sequences_;
 };
 
@@ -96,13 +104,17 @@ double ValidationError(PredictorNet& net, const PoseWindows& windows, const Eule
   return sum / static_cast<double>(all.size());
 }
 
+std::shared_ptr<PredictorNet> MakeMember(const PredictorTraining& config, const NetworkBody& body,
+                                         const EulerMeasure& measure) {
+  if (config.family == "gcn") return std::make_shared<GcnNet>(config.gcn, body, measure);
+  return std::make_shared<MixerNet>(config.mixer, body, measure);
+}
+
 std::shared_ptr<PredictorNet> MakeNet(const PredictorTraining& config, const NetworkBody& body,
                                       const EulerMeasure& measure) {
-  if (config.members == 1) return std::make_shared<MixerNet>(config.mixer, body, measure);
+  if (config.members == 1) return MakeMember(config, body, measure);
   std::vector<std::shared_ptr<PredictorNet>> members;
-  for (int i = 0; i < config.members; ++i) {
-    members.push_back(std::make_shared<MixerNet>(config.mixer, body, measure));
-  }
+  for (int i = 0; i < config.members; ++i) members.push_back(MakeMember(config, body, measure));
   return std::make_shared<EnsembleNet>(std::move(members));
 }
 
@@ -143,7 +155,7 @@ StatusOr<PredictorResult> TrainPredictor(const PredictorTask& task, const base::
   const NetworkBody body = NetworkBody::Of(clips);
   const EulerMeasure measure = MeasureOf(clips, body);
   const int spare = std::max(0, config.future_frames() - config.least_future_frames);
-  const BalancedWindows train(split, window, spare);
+  const TrainingWindows train(split, window, spare, config.balanced);
   PoseWindows validation(window);
   for (const motion::Clip& clip : split.validation) {
     validation.Add(clip, Starts(clip, window, kValidationStep));

@@ -26,7 +26,7 @@ function(poise_kernel target source)
     set(object ${target}_${stem}_${isa})
     add_library(${object} OBJECT "${source}")
     target_compile_options(${object} PRIVATE ${POISE_WARNINGS} -O3 -march=x86-64-${isa}
-                           -ffp-contract=fast -fno-math-errno)
+                           -ffp-contract=fast -fno-math-errno ${POISE_KERNEL_WARNINGS})
     target_compile_definitions(${object} PRIVATE POISE_KERNEL_ISA=isa_${isa} Eigen=Eigen_${isa})
     target_include_directories(${object} PRIVATE "${PROJECT_SOURCE_DIR}")
     target_link_libraries(${object} PRIVATE Eigen3::Eigen)

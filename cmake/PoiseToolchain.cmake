@@ -20,6 +20,7 @@ add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=16)
 
 # Our own code only; system and generated headers stay out of it.
 set(POISE_WARNINGS -Wall -Wextra -Werror -Wno-error=deprecated-declarations)
+set(POISE_KERNEL_WARNINGS "")
 
 set(POISE_TEST_ENVIRONMENT "")
 if(POISE_SANITIZER)
@@ -28,6 +29,7 @@ if(POISE_SANITIZER)
   # GCC warns of its own AVX-512 headers in instrumented code (GCC bug 105593).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     list(APPEND POISE_WARNINGS -Wno-maybe-uninitialized)
+    set(POISE_KERNEL_WARNINGS -Wno-uninitialized)
   endif()
   if(POISE_SANITIZER STREQUAL "address")
     add_compile_options(-fsanitize=undefined -fno-sanitize-recover=undefined)

@@ -38,7 +38,7 @@ struct PolicyScore {
 /// What training came to.
 struct TrainingReport {
   std::vector<PolicyScore> curve;  ///< the first is the policy before it learned
-  int best = 0;                    ///< index in `curve` of the policy that is kept
+  int best = 0;  ///< index in `curve` of the policy that is kept: the first only if no other came
   int64_t samples = 0;
   double seconds = 0;      ///< of all attempts
   bool converged = false;  ///< no gain for long, else a limit came first

@@ -33,9 +33,9 @@ base::Json ToJson(const PolicyScore& score) {
 }
 
 PolicyScore ScoreFromJson(const base::Json& json) {
-  return {.samples = json.at(0),
-          .variants = json.at(1),
-          .completed = json.at(2),
+  return {.samples = base::IntegerFrom<int64_t>(json.at(0)),
+          .variants = base::IntegerFrom<int>(json.at(1)),
+          .completed = base::IntegerFrom<int>(json.at(2)),
           .reward_normalised = json.at(3),
           .residual_force_mean_bw = json.at(4),
           .residual_force_peak_bw = json.at(5),
@@ -138,7 +138,9 @@ Status ImitationLearner::State::EvaluateNow(const base::RunContext& context) {
   to_the_end.deadline = absl::InfiniteFuture();
   const rl::Policy policy = ppo.policy();
   POISE_ASSIGN_OR_RETURN(const PolicyScore score, Evaluate(policy, to_the_end));
-  if (report.curve.empty() || score.merit > report.curve[report.best].merit) {
+  // Learned policies are compared with each other: without learning, Correct has `fast` anyway.
+  const bool best_has_learned = report.best > 0;
+  if (!best_has_learned || score.merit > report.curve[report.best].merit) {
     report.best = static_cast<int>(report.curve.size());
     best_policy = policy;
   }
@@ -269,12 +271,12 @@ Status ImitationLearner::Restore(std::string_view checkpoint) {
     }
     TrainingReport report;
     for (const base::Json& score : json.at("curve")) report.curve.push_back(ScoreFromJson(score));
-    report.best = json.at("best");
+    report.best = base::IntegerFrom<int>(json.at("best"));
     report.seconds = json.at("seconds");
     if (report.best < 0 || report.best >= std::max<int>(1, report.curve.size())) {
       return Malformed("no best policy");
     }
-    const int64_t evaluated = json.at("evaluated");
+    const auto evaluated = base::IntegerFrom<int64_t>(json.at("evaluated"));
     POISE_ASSIGN_OR_RETURN(rl::Policy best,
                            rl::Policy::Load(BytesFromJson(json.at("best_policy"))));
     POISE_RETURN_IF_ERROR(state.ppo.Restore(BytesFromJson(json.at("ppo"))));

@@ -11,6 +11,7 @@
 #include "tests/support/job_calls.h"
 #include "tests/support/job_cluster.h"
 #include "tests/support/process_inspection.h"
+#include "tests/support/sanitizer.h"
 
 // A job whose processes are killed goes on from its last checkpoint and ends with the same bytes.
 namespace poise::testing {
@@ -191,11 +192,13 @@ void ExpectThatKillsChangeNothing(const base::Json& parameters, size_t files) {
 }
 
 TEST(JobResumeTest, ACorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne) {
+  POISE_SKIP_WHERE_INSTRUMENTED();
   ExpectThatKillsChangeNothing({{"variants_per_source", 20}}, 20);
 }
 
 // A small network that learns for some seconds, so that most kills come while it does.
 TEST(JobResumeTest, ALearnedCorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne) {
+  POISE_SKIP_WHERE_INSTRUMENTED();
   ExpectThatKillsChangeNothing({{"effort", "full"},
                                 {"variants_per_source", 2},
                                 {"overrides",

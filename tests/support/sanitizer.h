@@ -15,8 +15,8 @@ inline constexpr bool kInstrumented = false;
 
 }  // namespace poise::testing
 
-/// Stands in a test that finds a number by long computing: an instrumented build would take too long
-/// for it, and other tests run the same code.
+/// Stands in a test that finds a number by long computing: an instrumented build would take too
+/// long for it, and other tests run the same code.
 #define POISE_SKIP_WHERE_INSTRUMENTED() \
   if (::poise::testing::kInstrumented) GTEST_SKIP() << "too slow in an instrumented build"
 

@@ -130,7 +130,9 @@ TEST(HostileRequestsTest, TenThousandLeaveTheServerServingItsMemoryFlatAndEveryE
   std::printf("%d requests; RSS after 2,000: %.0f MiB, at the end: %.0f MiB\n", kRequests, warm,
               end);
   for (const auto& [reason, count] : reasons) std::printf("  %6d %s\n", count, reason.c_str());
-  if (!testing::kInstrumented) EXPECT_LT(end, warm + 16);
+  if (!testing::kInstrumented) {
+    EXPECT_LT(end, warm + 16);
+  }
   EXPECT_EQ(reasons.count("UNEXPECTED_EXCEPTION"), 0u);
   EXPECT_EQ(testing::HealthOf(channel, ""), "SERVING");
 }

@@ -11,7 +11,8 @@
 namespace poise::cli {
 namespace {
 
-constexpr char kDescription[] = "Measure what was made, beside what it was made from.";
+constexpr char kDescription[] =
+    "Measure what was made or predicted, beside what it should be like.";
 constexpr char kSynthesisDescription[] =
     "Hold a folder of made motions against the clips that they were made from.\n\n"
     "Whether they come from the same distribution (unbiased MMD with the p-value of a permutation "
@@ -131,7 +132,8 @@ std::vector<Command> AddEvaluateCommands(CLI::App& app, const Console& console) 
       ->type_name("N")
       ->capture_default_str();
   AddJsonFlag(*command);
-  return {{command, [options, &console] { return RunSynthesis(*options, console); }}};
+  return {{command, [options, &console] { return RunSynthesis(*options, console); }},
+          AddEvaluatePredictorCommand(*evaluate, console)};
 }
 
 }  // namespace poise::cli

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "client/cli/benchmark_form_flags.h"
 #include "client/cli/commands.h"
 #include "client/cli/jobs/job_options.h"
 #include "client/cli/jobs/job_wait.h"
@@ -26,11 +27,25 @@ constexpr char kVaeFooter[] =
     "  poise train vae --data hdm05 --class kick --hold-out tr --name kick-tr --seed 1\n"
     "  poise train vae --data hdm05 --class jog --name jog --preset paper --detach\n"
     "  poise train vae --data hdm05 --class kick --name kick --set trainer.steps=500";
+constexpr char kPredictorDescription[] =
+    "Train a network that says what comes next in a motion.\n\n"
+    "It learns from all clips of the class but those of the actor of --hold-out; which weights are "
+    "kept is decided on the ends of long training clips. Clips are brought to --rate and, with "
+    "--body "
+    "roles, to the 16 joints of the required roles. Settings: preset recommended or that of a "
+    "published network, then --set.";
+constexpr char kPredictorFooter[] =
+    "Examples:\n"
+    "  poise train predictor --data hdm05 --class kick --hold-out tr --name kick-next\n"
+    "  poise train predictor --data cmu --body all --rate 60 --name mine --set trainer.steps=8000\n"
+    "  poise predict kick.amc --model kick-next";
 constexpr const char* kModelFile = "model.safetensors";
 
 struct TrainOptions {
   client::ClientOptions connection = client::ClientOptions::FromEnvironment();
+  std::string kind;  // of the job
   std::string data, name, action_class, hold_out;
+  base::Json more = base::Json::object();  // parameters of this kind alone
   std::string preset = "recommended";
   std::vector<std::string> assignments;  // of --set
   uint64_t seed = 0;
@@ -40,7 +55,7 @@ struct TrainOptions {
 
 StatusOr<api::CreateJob> Request(const TrainOptions& options, const api::DataSet& data) {
   api::CreateJob request;
-  request.spec.kind = "train_vae";
+  request.spec.kind = options.kind;
   request.request_id = options.request_id;
   request.seed = options.seed;
   POISE_ASSIGN_OR_RETURN(const auto settings, ParsePairs(options.assignments, "set"));
@@ -52,6 +67,7 @@ StatusOr<api::CreateJob> Request(const TrainOptions& options, const api::DataSet
                              {"hold_out", options.hold_out},
                              {"preset", options.preset},
                              {"set", settings}};
+  request.spec.parameters.update(options.more);
   return request;
 }
 
@@ -63,7 +79,7 @@ StatusOr<std::string> ModelArtifact(const api::Job& job) {
                         fmt::format("jobs/{} has no {}", job.id, kModelFile));
 }
 
-Status RunVae(const TrainOptions& options, const Console& console) {
+Status RunTraining(const TrainOptions& options, const Console& console) {
   JobWait wait({.wait = !options.detach}, console);
   POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
   POISE_ASSIGN_OR_RETURN(const api::DataSet data, client->GetDataSet(options.data));
@@ -90,7 +106,7 @@ Status RunVae(const TrainOptions& options, const Console& console) {
   return absl::OkStatus();
 }
 
-void AddVaeFlags(CLI::App& command, TrainOptions& options) {
+void AddTrainingFlags(CLI::App& command, TrainOptions& options) {
   command.add_option("--data", options.data, "Data set (poise data list)")
       ->type_name("NAME")
       ->required();
@@ -101,7 +117,7 @@ void AddVaeFlags(CLI::App& command, TrainOptions& options) {
       ->type_name("CLASS");
   command.add_option("--hold-out", options.hold_out, "Actor who is not learned from")
       ->type_name("ACTOR");
-  command.add_option("--preset", options.preset, "recommended or paper")
+  command.add_option("--preset", options.preset, "recommended, or as published")
       ->type_name("NAME")
       ->capture_default_str();
   command.add_option("--set", options.assignments, "A setting; repeatable")
@@ -115,17 +131,37 @@ void AddVaeFlags(CLI::App& command, TrainOptions& options) {
   command.add_flag("--detach", options.detach, "Print the job and do not wait");
 }
 
+Command AddVae(CLI::App& train, const Console& console) {
+  auto options = std::make_shared<TrainOptions>();
+  options->kind = "train_vae";
+  CLI::App* command = train.add_subcommand("vae", kVaeDescription);
+  command->footer(kVaeFooter);
+  AddTrainingFlags(*command, *options);
+  AddConnectionFlags(*command, options->connection);
+  return {command, [options, &console] { return RunTraining(*options, console); }};
+}
+
+Command AddPredictor(CLI::App& train, const Console& console) {
+  auto options = std::make_shared<TrainOptions>();
+  auto form = std::make_shared<motion::BenchmarkForm>();
+  options->kind = "train_predictor";
+  CLI::App* command = train.add_subcommand("predictor", kPredictorDescription);
+  command->footer(kPredictorFooter);
+  AddTrainingFlags(*command, *options);
+  AddBenchmarkFormFlags(*command, *form);
+  AddConnectionFlags(*command, options->connection);
+  return {command, [options, form, &console] {
+            options->more = base::FieldsToJson(form->Fields());
+            return RunTraining(*options, console);
+          }};
+}
+
 }  // namespace
 
-Command AddTrainCommand(CLI::App& app, const Console& console) {
+std::vector<Command> AddTrainCommands(CLI::App& app, const Console& console) {
   CLI::App* train = app.add_subcommand("train", kDescription);
   train->footer("Example:\n  poise train vae --data hdm05 --class kick --name kick");
-  auto options = std::make_shared<TrainOptions>();
-  CLI::App* vae = train->add_subcommand("vae", kVaeDescription);
-  vae->footer(kVaeFooter);
-  AddVaeFlags(*vae, *options);
-  AddConnectionFlags(*vae, options->connection);
-  return {vae, [options, &console] { return RunVae(*options, console); }};
+  return {AddVae(*train, console), AddPredictor(*train, console)};
 }
 
 }  // namespace poise::cli

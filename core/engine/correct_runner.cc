@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <utility>
 #include <vector>
@@ -15,6 +12,7 @@
 #include "core/base/identifier.h"
 #include "core/engine/clip_catalog.h"
 #include "core/engine/correct_checkpoint.h"
+#include "core/engine/job_files.h"
 #include "core/pipeline/correct_run.h"
 #include "core/pipeline/correct_settings.h"
 
@@ -34,25 +32,9 @@ StatusOr<api::CorrectSpec> SpecOf(const base::Json& parameters) {
   return spec;
 }
 
-StatusOr<std::string> ReadFile(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(stream), {});
-  if (stream.good() || stream.eof()) return bytes;
-  return base::NotFound("INPUT_NOT_FOUND", "", fmt::format("cannot read {}", path.string()));
-}
-
-// `field` is the one that names the artifact.
-StatusOr<std::string> ReadInput(const std::string& artifact, const std::string& field,
-                                const jobs::RunInput& input) {
-  const auto path = input.inputs.find(artifact);
-  if (path != input.inputs.end()) return ReadFile(path->second);
-  return base::NotFound("INPUT_NOT_FOUND", field,
-                        fmt::format("'{}' is not among the inputs", artifact));
-}
-
 StatusOr<CatalogClip> ReadSource(const api::ClipSource& source, const jobs::RunInput& input) {
   const auto& stored = std::get<api::StoredClip>(source.clip);
-  POISE_ASSIGN_OR_RETURN(std::string data, ReadInput(stored.artifact, "artifact", input));
+  POISE_ASSIGN_OR_RETURN(std::string data, ReadInput(input, stored.artifact, "artifact"));
   return DecodeSource({.name = stored.name,
                        .data = std::move(data),
                        .format = stored.format,
@@ -105,26 +87,13 @@ class CheckpointPace {
   absl::Duration cost_ = absl::ZeroDuration();
 };
 
-StatusOr<jobs::OutputFile> WriteOutput(const std::filesystem::path& folder,
-                                       const CorrectedVariant& variant) {
-  jobs::OutputFile file{.name = variant.report.file,
-                        .path = folder / variant.report.file,
-                        .media_type = "text/plain"};
-  std::ofstream stream(file.path, std::ios::binary);
-  stream << variant.file_data;
-  stream.close();
-  if (stream.good()) return file;
-  return base::ResourceExhausted("CANNOT_WRITE", "",
-                                 fmt::format("cannot write {}", file.path.string()));
-}
-
 StatusOr<jobs::RunOutput> Collect(const pipeline::CorrectFlow& flow,
-                                  const pipeline::CorrectRun& run,
-                                  const std::filesystem::path& folder) {
+                                  const pipeline::CorrectRun& run, const jobs::RunInput& input) {
   jobs::RunOutput output;
   for (const auto& variant : run.state().variants) {
     if (variant->report.file.empty()) continue;
-    POISE_ASSIGN_OR_RETURN(output.files.emplace_back(), WriteOutput(folder, *variant));
+    POISE_RETURN_IF_ERROR(
+        WriteOutput(input, variant->report.file, "text/plain", variant->file_data, output));
   }
   output.report = {{"clips", base::Json::array()}};
   for (int source = 0; source < flow.num_sources(); ++source) {
@@ -142,7 +111,7 @@ StatusOr<pipeline::MotionDecoderPtr> CorrectRunner::Decoder(const api::CorrectSp
     return base::FailedPrecondition("NO_NETWORKS", "model", "this program evaluates no networks");
   }
   POISE_ASSIGN_OR_RETURN(const std::string bytes,
-                         ReadInput(spec.model_artifact, "model_artifact", input));
+                         ReadInput(input, spec.model_artifact, "model_artifact"));
   StatusOr<artifacts::ModelArtifact> model = artifacts::UnpackModel(bytes, spec.model);
   if (!model.ok()) return base::Annotate(model.status(), "model", "model_artifact");
   return load_decoder_(*model);
@@ -189,7 +158,7 @@ StatusOr<jobs::RunOutput> CorrectRunner::Run(const jobs::RunInput& input,
     POISE_RETURN_IF_ERROR(context.save_checkpoint(EncodeCheckpoint(run.state()), run.step()));
   }
   POISE_RETURN_IF_ERROR(status);
-  return Collect(*flow, run, input.folder);
+  return Collect(*flow, run, input);
 }
 
 std::unique_ptr<jobs::JobRunner> MakeCorrectRunner() { return std::make_unique<CorrectRunner>(); }

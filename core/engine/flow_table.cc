@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 
 #include "core/engine/correct_runner.h"
+#include "core/engine/evaluate_predictor_runner.h"
+#include "core/pipeline/predictor_evaluation.h"
+#include "core/pipeline/train_predictor_spec.h"
 #include "core/pipeline/train_vae_spec.h"
 #include "core/runtime/jobs/selftest_config.h"
 #include "core/runtime/jobs/selftest_runner.h"
@@ -12,8 +15,9 @@ namespace poise::engine {
 
 namespace {
 
-Status ValidateTrainVae(const base::Json& parameters) {
-  return pipeline::TrainVaeSpec::FromParameters(parameters).status();
+template <typename Spec>
+Status Validate(const base::Json& parameters) {
+  return Spec::FromParameters(parameters).status();
 }
 
 }  // namespace
@@ -24,8 +28,12 @@ const std::vector<Flow>& FlowTable() {
        jobs::MakeSelftestRunner},
       {"correct", "variants of clips that a simulated body has imitated", ValidateCorrect,
        MakeCorrectRunner, CorrectNeedsTorch},
-      {"train_vae", "a variational autoencoder of one class's motions", ValidateTrainVae, nullptr,
-       nullptr, /*trains=*/true},
+      {"train_vae", "a variational autoencoder of one class's motions",
+       Validate<pipeline::TrainVaeSpec>, nullptr, nullptr, /*trains=*/true},
+      {"train_predictor", "a network that says what comes next in a motion",
+       Validate<pipeline::TrainPredictorSpec>, nullptr, nullptr, /*trains=*/true},
+      {"evaluate_predictor", "how far predictions are from what came, beside the floors",
+       Validate<pipeline::PredictorEvaluation>, MakeEvaluatePredictorRunner},
   };
   return flows;
 }

@@ -2,9 +2,11 @@
 
 #include "core/engine/correct_runner.h"
 #include "core/engine/flow_table.h"
-#include "core/engine/train_vae_runner.h"
+#include "core/engine/training_runner.h"
 #include "core/pipeline/load_decoder.h"
 #include "core/pipeline/make_policy_learner.h"
+#include "core/pipeline/train_predictor.h"
+#include "core/pipeline/train_vae.h"
 
 namespace poise::engine {
 
@@ -13,7 +15,8 @@ StatusOr<std::unique_ptr<jobs::JobRunner>> MakeRunner(std::string_view kind) {
   if (kind == "correct")
     return std::make_unique<CorrectRunner>(pipeline::MakePolicyLearner, pipeline::LoadDecoder);
   if (flow->make_runner != nullptr) return flow->make_runner();
-  return std::make_unique<TrainVaeRunner>();
+  return std::make_unique<TrainingRunner>(kind == "train_vae" ? pipeline::TrainVae
+                                                              : pipeline::TrainPredictor);
 }
 
 }  // namespace poise::engine

@@ -1,61 +1,13 @@
 #include "core/pipeline/train_vae_spec.h"
 
-#include <utility>
-
-#include "core/api/model_card.h"
-
 namespace poise::pipeline {
-namespace {
-
-constexpr const char* kOverrides = "set";
-
-std::vector<base::Field> Fields(TrainVaeSpec& spec) {
-  return {base::Text("name", &spec.name),
-          base::Text("data_artifact", &spec.data_artifact),
-          base::Text("data", &spec.data),
-          base::Text("data_license", &spec.data_license),
-          base::Text("action_class", &spec.action_class),
-          base::Text("hold_out", &spec.hold_out),
-          base::Text("preset", &spec.preset)};
-}
-
-StatusOr<TrainVaeSpec> Parse(base::Json parameters) {
-  TrainVaeSpec spec;
-  if (parameters.is_object() && parameters.contains(kOverrides)) {
-    const base::Json overrides = parameters[kOverrides];
-    parameters.erase(kOverrides);
-    if (!overrides.is_object()) {
-      return base::InvalidArgument("MALFORMED_CONFIG_VALUE", kOverrides,
-                                   "'set' expects an object of settings");
-    }
-    for (const auto& [key, value] : overrides.items()) {
-      spec.overrides[key] = value.is_string() ? value.get<std::string>() : value.dump();
-    }
-  }
-  POISE_RETURN_IF_ERROR(base::FieldsFromJson(parameters, Fields(spec)));
-  if (!spec.name.empty()) {
-    POISE_RETURN_IF_ERROR(api::CheckResourceName(spec.name, "BAD_MODEL_NAME"));
-  }
-  if (spec.data_artifact.empty()) {
-    return base::InvalidArgument("MISSING_DATA", "data_artifact",
-                                 "say what to learn from: the artifact of a data set");
-  }
-  POISE_RETURN_IF_ERROR(spec.Config().status());
-  return spec;
-}
-
-}  // namespace
 
 StatusOr<TrainVaeSpec> TrainVaeSpec::FromParameters(const base::Json& parameters) {
-  StatusOr<TrainVaeSpec> spec = Parse(parameters);
-  if (!spec.ok()) return base::Annotate(spec.status(), "train_vae", "spec.parameters");
+  TrainVaeSpec spec;
+  Status status = ReadTrainingSpec(parameters, {}, spec);
+  if (status.ok()) status = spec.Config().status();
+  if (!status.ok()) return base::Annotate(status, "train_vae", "spec.parameters");
   return spec;
-}
-
-StatusOr<synthesis::VaeConfig> TrainVaeSpec::Config() const {
-  POISE_ASSIGN_OR_RETURN(synthesis::VaeConfig config, synthesis::VaeConfig::FromPreset(preset));
-  POISE_RETURN_IF_ERROR(base::ApplyOverrides(overrides, config.Fields()));
-  return config;
 }
 
 }  // namespace poise::pipeline

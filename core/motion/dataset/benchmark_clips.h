@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/config_fields.h"
 #include "core/motion/dataset/labelled_clip.h"
 #include "core/motion/metrics/euler_error.h"
 
@@ -18,6 +19,30 @@ struct BenchmarkClips {
   ColumnMask counts;                                    ///< columns that the error counts
   EulerErrorVariant variant = EulerErrorVariant::kMovingColumns;
 };
+
+/// The rate and body on which predictions are learned and tested.
+struct BenchmarkForm {
+  double frame_rate = 30;  ///< [Hz] 0: the clips' own, which must be one
+  /// "roles": the 16 joints of MotionAug and all their columns, as HDM05 is tested.
+  /// "all": every joint, and the columns that move, as CMU is tested (of row vectors).
+  std::string body = "roles";
+
+  std::vector<base::Field> Fields();
+};
+
+/// How clips of any data set become a benchmark.
+struct BenchmarkRules {
+  std::string action_class = {};  ///< IsOfClass; empty: all
+  std::string hold_out = {};  ///< the actor whose clips are the test; empty: all are for training
+  BenchmarkForm form = {};
+};
+
+/// Thinned out where the rate is a whole multiple, else interpolated.
+/// Errors: kNotFound NO_CLIPS (of the class, or of the actor; the message lists those there are);
+/// kFailedPrecondition MIXED_BODIES (other joints), MIXED_RATES; those of ReduceToRoles and
+/// Resample with the clip's name.
+StatusOr<BenchmarkClips> MakeBenchmark(std::vector<LabelledClip> clips,
+                                       const BenchmarkRules& rules);
 
 /// CMU rotation-vector text below `folder`/{train,test}/<action>/<action>_<k>.txt: the eight
 /// actions as far as they are there, the first file of each action as its test, all of its training

@@ -107,6 +107,60 @@ TEST_F(ModelsCommandTest, ANetworkIsTrainedByAJobAndMakesMotions) {
   EXPECT_EQ(typo.Error()["reason"], "UNKNOWN_CONFIG_KEY");
 }
 
+TEST_F(ModelsCommandTest, APredictorIsTrainedTestedAndAnswersByItsName) {
+  fs::create_directories(Path("clips/swing"));
+  for (const std::string actor : {"aa", "bb"}) {
+    for (int i = 0; i < 2; ++i) {
+      const std::string name = "HDM_" + actor + "_swing_" + std::to_string(i);
+      ASSERT_TRUE(
+          motion::WriteBvhFile(Path("clips/swing/" + name + ".bvh"), SwingingClip(300, 120, 0.3, i))
+              .ok());
+    }
+  }
+  ASSERT_EQ(Poise({"data", "add", "swings", Path("clips"), "--license", "mine"}).exit_code, 0);
+  const PoiseRun trained = Poise({"train",      "predictor",
+                                  "--data",     "swings",
+                                  "--hold-out", "bb",
+                                  "--name",     "swing-next",
+                                  "--seed",     "3",
+                                  "--set",      "trainer.steps=20",
+                                  "--set",      "members=1",
+                                  "--set",      "mixer.width=16",
+                                  "--set",      "mixer.hidden=16",
+                                  "--set",      "mixer.blocks=1",
+                                  "--set",      "mixer.future_frames=12"});
+  ASSERT_EQ(trained.exit_code, 0) << trained.out << trained.err;
+  const base::Json model = trained.JsonLines().back();
+  EXPECT_EQ(model["card"]["family"], "mixer");
+  EXPECT_EQ(model["card"]["steps"], 20);
+  EXPECT_EQ(model["card"]["trained_on"], "all classes, without actor bb");
+  EXPECT_EQ(model["card"]["data_license"], "mine");
+  const PoiseRun curve = Poise({"jobs", "result", model["job"], "--out", Path("result")});
+  EXPECT_TRUE(fs::exists(Path("result/learning_curve.csv"))) << curve.out;
+  const PoiseRun predicted = Poise({"predict", Path("clips/swing/HDM_bb_swing_0.bvh"), "--model",
+                                    "swing-next", "--horizon", "0.3", "--out", Path("next.bvh")});
+  ASSERT_EQ(predicted.exit_code, 0) << predicted.out << predicted.err;
+  EXPECT_EQ(predicted.JsonLines().back()["model"], "swing-next@1");
+  const PoiseRun tested = Poise({"evaluate", "predictor", "swing-next", "--data", "swings",
+                                 "--hold-out", "bb", "--out", Path("scores.csv")});
+  ASSERT_EQ(tested.exit_code, 0) << tested.out << tested.err;
+  const base::Json report = tested.JsonLines().back();
+  ASSERT_EQ(report["models"].size(), 3u);
+  EXPECT_EQ(report["models"][0]["model"], "zero-velocity@1");
+  EXPECT_EQ(report["models"][2]["model"], "swing-next@1");
+  EXPECT_EQ(report["models"][2]["windows"], 2 * (75 - 24 + 1));
+  EXPECT_GT(report["models"][2]["errors"][3], 0);
+  std::ifstream csv(Path("scores.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "task,model,preset,protocol,action,frame,horizon_ms,seed,metric,value");
+  const PoiseRun nobody = Poise({"evaluate", "predictor", "--data", "swings", "--hold-out", "cc"});
+  EXPECT_EQ(nobody.JsonLines().back()["error"]["reason"], "NO_CLIPS") << nobody.out;
+  const PoiseRun typo = Poise(
+      {"train", "predictor", "--data", "swings", "--name", "next", "--set", "mixer.widht=20"});
+  EXPECT_EQ(typo.Error()["reason"], "UNKNOWN_CONFIG_KEY");
+}
+
 TEST_F(ModelsCommandTest, AJobThatNobodyWaitsForGivesItsModelTheName) {
   std::filesystem::create_directories(Path("clips/swing"));
   for (int i = 0; i < 3; ++i) {

@@ -34,6 +34,8 @@ TEST(FlowTableTest, OnlyJobsThatLearnNeedLibTorch) {
            {"sources", {source}}, {"method", "vae"}, {"model_artifact", "artifacts/1"}}}));
   EXPECT_FALSE(NeedsTorch({.kind = "selftest", .parameters = {}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_vae", .parameters = {}}));
+  EXPECT_TRUE(NeedsTorch({.kind = "train_predictor", .parameters = {}}));
+  EXPECT_FALSE(NeedsTorch({.kind = "evaluate_predictor", .parameters = {}}));
   EXPECT_FALSE(NeedsTorch({.kind = "nonsense", .parameters = {}}));
   EXPECT_EQ(base::ErrorReason(MakeLightRunner("train_vae").status()), "NO_NETWORKS");
   EXPECT_TRUE(MakeLightRunner("correct").ok());
@@ -57,6 +59,24 @@ TEST(FlowTableTest, ParametersAreCheckedWithTheFieldToBlame) {
   EXPECT_FALSE(selftest.validate({{"steps", {{"a", 1}}}}).ok());
   EXPECT_FALSE(selftest.validate(base::Json::array()).ok());
   EXPECT_TRUE(selftest.validate({{"steps", 3}, {"busy", true}, {"failure", "diverge"}}).ok());
+}
+
+TEST(FlowTableTest, ParametersOfPredictorsAreCheckedBeforeAnythingRuns) {
+  const base::Json data = {{"data_artifact", "artifacts/0"}};
+  const auto reason = [&](const char* kind, const char* key, base::Json value) {
+    base::Json parameters = data;
+    if (*key != 0) parameters[key] = std::move(value);
+    return base::ErrorReason((*FindFlow(kind))->validate(parameters));
+  };
+  EXPECT_TRUE((*FindFlow("train_predictor"))->validate(data).ok());
+  EXPECT_TRUE((*FindFlow("evaluate_predictor"))->validate(data).ok());
+  EXPECT_EQ(reason("train_predictor", "preset", "best"), "UNKNOWN_PRESET");
+  EXPECT_EQ(reason("train_predictor", "body", "half"), "CONFIG_VALUE_OUT_OF_RANGE");
+  EXPECT_EQ(reason("train_predictor", "frame_rate", -1), "CONFIG_VALUE_OUT_OF_RANGE");
+  EXPECT_EQ(reason("train_predictor", "name", "no name"), "BAD_MODEL_NAME");
+  EXPECT_EQ(reason("train_predictor", "set", {{"members", 0}}), "CONFIG_VALUE_OUT_OF_RANGE");
+  EXPECT_EQ(reason("evaluate_predictor", "protocol", "seeded90"), "UNKNOWN_PROTOCOL");
+  EXPECT_EQ(reason("evaluate_predictor", "data_artifact", ""), "MISSING_DATA");
 }
 
 }  // namespace

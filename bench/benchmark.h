@@ -35,8 +35,10 @@ std::vector<Row> RunGrpcBenchmark();
 std::vector<Row> RunIkBenchmark();
 std::vector<Row> RunJobsBenchmark();
 std::vector<Row> RunPolicyBenchmark();
+std::vector<Row> RunPredictBenchmark();
 std::vector<Row> RunPushBenchmark();
 std::vector<Row> RunSimBenchmark();
+std::vector<Row> RunStreamBenchmark();
 
 }  // namespace poise::bench
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "absl/time/clock.h"
+#include "core/base/exit_code.h"
 #include "core/base/fail_point.h"
 #include "core/base/json.h"
 #include "core/base/memory_policy.h"
@@ -148,20 +149,6 @@ Status Serve(PoisedOptions options) {
   return absl::OkStatus();
 }
 
-// The exit codes of all Poise programs.
-int ExitCode(absl::StatusCode code) {
-  switch (code) {
-    case absl::StatusCode::kOk:
-      return 0;
-    case absl::StatusCode::kInvalidArgument:
-      return 2;
-    case absl::StatusCode::kFailedPrecondition:
-      return 4;
-    default:
-      return 1;
-  }
-}
-
 int Main(int argc, char** argv) {
   base::SetFailPointsFromEnvironment();
   base::KeepFreedMemory();
@@ -177,7 +164,7 @@ int Main(int argc, char** argv) {
   }
   const Status status = Serve(std::move(options));
   if (!status.ok()) fmt::print(stderr, "poised: {}\n", base::Message(status));
-  return ExitCode(status.code());
+  return static_cast<int>(base::ExitCodeOf(status));
 }
 
 }  // namespace

@@ -84,6 +84,19 @@ void AddDuration(CLI::App& app, const std::string& name, absl::Duration& duratio
       ->default_str(fmt::format("{:g}", absl::FDivDuration(duration, unit)));
 }
 
+void AddServingFlags(serving::ServingConfig& config, CLI::App& app) {
+  app.add_option("--predict-max-batch", config.max_batch,
+                 "Motions that one forward pass of a predictor takes together; 1: no batching")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  AddDuration(app, "--predict-max-delay-ms", config.max_added_delay, absl::Milliseconds(1),
+              "Longest that a prediction waits to be made together with others");
+  app.add_option("--predict-max-requests", config.max_requests,
+                 "Predictions by one model at work or waiting; more are refused")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+}
+
 std::pair<std::string, double> ParseWeight(const std::string& text) {
   const size_t equals = text.find('=');
   try {
@@ -150,6 +163,7 @@ void AddJobFlags(PoisedOptions& options, CLI::App& app) {
 void AddFlags(PoisedOptions& options, CLI::App& app) {
   AddServerFlags(options, app);
   AddLimitFlags(options, app);
+  AddServingFlags(options.engine.serving, app);
   AddJobFlags(options, app);
   AddDrainFlags(options, app);
 }

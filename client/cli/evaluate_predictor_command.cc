@@ -101,7 +101,7 @@ Status Run(const Options& options, const Console& console) {
   POISE_ASSIGN_OR_RETURN(api::Job job, client->CreateJob(request));
   if (options.detach) return wait.Answer(*client, std::move(job));
   POISE_ASSIGN_OR_RETURN(job, wait.End(*client, std::move(job)));
-  if (job.state != api::JobState::kSucceeded) return JobOutcome(job);
+  if (job.state != api::JobState::kSucceeded) return wait.Report(job);
   POISE_ASSIGN_OR_RETURN(base::Json report, Fetch(options, job, *client));
   if (console.json()) {
     report["job"] = "jobs/" + job.id;

@@ -87,7 +87,7 @@ Status RunTraining(const TrainOptions& options, const Console& console) {
   POISE_ASSIGN_OR_RETURN(api::Job job, client->CreateJob(request));
   if (options.detach) return wait.Answer(*client, std::move(job));
   POISE_ASSIGN_OR_RETURN(job, wait.End(*client, std::move(job)));
-  if (job.state != api::JobState::kSucceeded) return JobOutcome(job);
+  if (job.state != api::JobState::kSucceeded) return wait.Report(job);
   POISE_ASSIGN_OR_RETURN(const std::string artifact, ModelArtifact(job));
   // The server has done so; the answer is which version it became.
   POISE_ASSIGN_OR_RETURN(const api::Model model, client->ImportModel(options.name, artifact));

@@ -181,10 +181,22 @@ StatusOr<api::Model> ModelRegistry::Get(const api::ModelReference& reference) co
   return Describe(reference.name, place);
 }
 
-StatusOr<ModelArtifact> ModelRegistry::Load(const api::ModelReference& reference) const {
+StatusOr<api::ModelReference> ModelRegistry::Resolve(const api::ModelReference& reference) const {
   std::lock_guard lock(mutex_);
+  POISE_ASSIGN_OR_RETURN(Place place, Find(reference));
+  return api::ModelReference{.name = reference.name, .version = std::move(place.version)};
+}
+
+// Others need not wait while the weights are read: what is in a folder never changes.
+StatusOr<ModelArtifact> ModelRegistry::Load(const api::ModelReference& reference) const {
+  std::unique_lock lock(mutex_);
   POISE_ASSIGN_OR_RETURN(const Place place, Find(reference));
-  return ReadModelFolder(place.folder);
+  lock.unlock();
+  StatusOr<ModelArtifact> model = ReadModelFolder(place.folder);
+  if (model.ok()) return model;
+  lock.lock();
+  const Status deleted_meanwhile = Find(reference).status();
+  return deleted_meanwhile.ok() ? model.status() : deleted_meanwhile;
 }
 
 StatusOr<api::Model> ModelRegistry::Import(const std::string& name, const ModelArtifact& model) {
@@ -209,6 +221,7 @@ StatusOr<api::Model> ModelRegistry::Import(const std::string& name, const ModelA
   fs::create_directories(place.folder.parent_path(), error);
   if (!error) fs::rename(staging, place.folder, error);
   if (error) return CannotStore(place.folder, error);
+  ++generation_;
   return Describe(name, place);
 }
 
@@ -217,6 +230,7 @@ StatusOr<api::Model> ModelRegistry::SetDefault(const api::ModelReference& refere
   POISE_ASSIGN_OR_RETURN(const Place place, FindExact(reference));
   POISE_RETURN_IF_ERROR(ReplaceWord(config_.root / kStaging / kDefaultFile,
                                     config_.root / reference.name / kDefaultFile, place.version));
+  ++generation_;
   return Describe(reference.name, place);
 }
 
@@ -238,6 +252,7 @@ Status ModelRegistry::Delete(const api::ModelReference& reference) {
   std::error_code error;
   fs::rename(place.folder, away, error);
   if (error) return CannotStore(place.folder, error);
+  ++generation_;
   fs::remove_all(away, error);
   return absl::OkStatus();
 }

@@ -1,6 +1,8 @@
 #ifndef POISE_CORE_ARTIFACTS_MODEL_REGISTRY_H_
 #define POISE_CORE_ARTIFACTS_MODEL_REGISTRY_H_
 
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -32,6 +34,10 @@ class ModelRegistry {
 
   /// Errors: kNotFound MODEL_NOT_FOUND with the names or versions there are.
   StatusOr<api::Model> Get(const api::ModelReference& reference) const;
+  /// The version that is meant, without reading its card. Errors: as Get.
+  StatusOr<api::ModelReference> Resolve(const api::ModelReference& reference) const;
+  /// Changes whenever a reference may have come to mean something else.
+  int64_t generation() const { return generation_.load(std::memory_order_acquire); }
   /// With the weights. Errors: as Get; kDataLoss CORRUPT_MODEL.
   StatusOr<ModelArtifact> Load(const api::ModelReference& reference) const;
 
@@ -63,6 +69,7 @@ class ModelRegistry {
 
   const ModelRegistryConfig config_;
   mutable std::mutex mutex_;
+  std::atomic<int64_t> generation_ = 0;
 };
 
 }  // namespace poise::artifacts

@@ -47,7 +47,8 @@ Engine::Engine(EngineConfig config, Stores stores, base::Telemetry& telemetry)
       data_sets_(std::move(stores.data_sets)),
       jobs_(std::make_unique<JobManager>(JobsConfig(), std::move(stores.jobs), *artifacts_,
                                          telemetry)),
-      forecaster_(std::make_unique<Forecaster>(*artifacts_, *model_registry_)),
+      forecaster_(
+          std::make_unique<Forecaster>(*artifacts_, *model_registry_, config_.serving, telemetry)),
       sources_resolved_(telemetry.counter("poise_augment_sources_total",
                                           "Source clips decoded for augmentation", {})),
       compute_(std::make_unique<base::ThreadPool>(config_.compute_threads)) {}

@@ -30,6 +30,7 @@ struct EngineConfig {
   int compute_threads = 0;                    ///< <= 0: one per available CPU
   /// [frames, > 0] Frames that one request may ask for: variants times the frames of their sources.
   int64_t max_output_frames = 2'000'000'000;
+  serving::ServingConfig serving = serving::ServingConfig();
   JobManagerConfig jobs = JobManagerConfig();
 };
 

@@ -4,6 +4,7 @@
 #include "core/api/predict_query.h"
 #include "core/artifacts/artifact_store.h"
 #include "core/base/run_context.h"
+#include "core/base/thread_pool.h"
 #include "core/pipeline/live_forecast.h"
 #include "core/runtime/serving/predictor_catalog.h"
 
@@ -20,20 +21,31 @@ struct ForecastStream {
 /// Threads: all members may be called from any thread.
 class Forecaster {
  public:
-  /// Both outlive the forecaster.
-  Forecaster(artifacts::ArtifactStore& artifacts, const artifacts::ModelRegistry& models)
-      : artifacts_(artifacts), catalog_(models) {}
+  /// All but the config outlive the forecaster.
+  Forecaster(artifacts::ArtifactStore& artifacts, const artifacts::ModelRegistry& models,
+             const serving::ServingConfig& config, base::Telemetry& telemetry)
+      : artifacts_(artifacts),
+        catalog_(models, config, telemetry),
+        threads_(config.max_requests + kSpareThreads) {}
 
-  /// Errors: those of PredictQuery::Validate, PredictorCatalog::Find, ClipCatalog::Resolve (field
-  /// "source") and prediction::Forecast.
+  /// Where the members below are to be called: threads that may wait for others, so that requests
+  /// to a model can be answered together, and enough of them that some are left to refuse.
+  base::ThreadPool& threads() { return threads_; }
+
+  /// Errors: those of PredictQuery::Validate, PredictorCatalog::Find, LoadGate::Enter,
+  /// ClipCatalog::Resolve (field "source") and prediction::Forecast.
   StatusOr<api::Forecast> Predict(api::PredictQuery query, const base::RunContext& context);
 
-  /// Errors: those of PredictorCatalog::Find and LiveForecast::Create.
+  /// A stream is refused like a request, but once begun it holds no place. Errors: those of
+  /// PredictorCatalog::Find, LoadGate::Enter and LiveForecast::Create.
   StatusOr<ForecastStream> Open(const api::ForecastStreamSpec& spec);
 
  private:
+  static constexpr int kSpareThreads = 16;
+
   artifacts::ArtifactStore& artifacts_;
   serving::PredictorCatalog catalog_;
+  base::ThreadPool threads_;
 };
 
 }  // namespace poise::engine

@@ -10,8 +10,8 @@
 namespace poise::server {
 
 PredictStream::PredictStream(grpc::CallbackServerContext* context, std::unique_ptr<Call> call,
-                             engine::Forecaster& forecaster, base::ThreadPool& compute)
-    : context_(context), call_(std::move(call)), forecaster_(forecaster), compute_(compute) {}
+                             engine::Forecaster& forecaster)
+    : context_(context), call_(std::move(call)), forecaster_(forecaster) {}
 
 PredictStream::Reactor* PredictStream::Start(std::shared_ptr<PredictStream> stream) {
   PredictStream* reactor = stream.get();
@@ -31,7 +31,7 @@ void PredictStream::OnReadDone(bool ok) {
             : absl::OkStatus());
     return;
   }
-  compute_.Submit([self = shared_from_this()] {
+  forecaster_.threads().Submit([self = shared_from_this()] {
     auto answer = Guarded(*self->call_, [&] { return self->Answer(); });
     if (!answer.ok()) return self->End(answer.status());
     if (!answer->has_value()) return self->StartRead(&self->request_);

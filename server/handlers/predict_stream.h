@@ -10,7 +10,6 @@
 #include <mutex>
 #include <optional>
 
-#include "core/base/thread_pool.h"
 #include "core/engine/forecaster.h"
 #include "poise/v1/prediction.pb.h"
 #include "server/admission/admission.h"
@@ -26,7 +25,7 @@ class PredictStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   using Reactor = grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>;
 
   PredictStream(grpc::CallbackServerContext* context, std::unique_ptr<Call> call,
-                engine::Forecaster& forecaster, base::ThreadPool& compute);
+                engine::Forecaster& forecaster);
 
   static Reactor* Start(std::shared_ptr<PredictStream> stream);
 
@@ -45,7 +44,6 @@ class PredictStream : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   grpc::CallbackServerContext* const context_;
   const std::unique_ptr<Call> call_;
   engine::Forecaster& forecaster_;
-  base::ThreadPool& compute_;
   grpc::Alarm deadline_alarm_;
   std::shared_ptr<PredictStream> self_;
 

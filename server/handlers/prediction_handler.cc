@@ -12,7 +12,7 @@ PredictionHandler::PredictionHandler(engine::Engine& engine, Admission& admissio
     : engine_(engine),
       admission_(admission),
       policies_(policies),
-      unary_(admission, engine.compute()) {}
+      unary_(admission, engine.forecaster().threads()) {}
 
 grpc::ServerUnaryReactor* PredictionHandler::Predict(grpc::CallbackServerContext* context,
                                                      const grpc::ByteBuffer* request,
@@ -31,8 +31,8 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* PredictionHandler::
     grpc::CallbackServerContext* context) {
   StatusOr<std::unique_ptr<Call>> call = admission_.Admit(*context, policies_.predict_stream);
   if (!call.ok()) return new Refusal<server::PredictStream::Reactor>(call.status());
-  return server::PredictStream::Start(std::make_shared<server::PredictStream>(
-      context, *std::move(call), engine_.forecaster(), engine_.compute()));
+  return server::PredictStream::Start(
+      std::make_shared<server::PredictStream>(context, *std::move(call), engine_.forecaster()));
 }
 
 }  // namespace poise::server

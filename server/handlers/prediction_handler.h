@@ -8,7 +8,7 @@
 namespace poise::server {
 
 /// poise.v1.PredictionService.
-/// Threads: gRPC calls from many. Predictions are made on the engine's compute threads.
+/// Threads: gRPC calls from many. Predictions are made on the forecaster's threads.
 class PredictionHandler : public v1::PredictionService::WithRawCallbackMethod_Predict<
                               v1::PredictionService::WithRawCallbackMethod_PredictStream<
                                   v1::PredictionService::Service>> {

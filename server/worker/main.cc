@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "core/base/exit_code.h"
 #include "core/base/fail_point.h"
 #include "core/base/identifier.h"
 #include "core/base/json.h"
@@ -149,25 +150,6 @@ Status Work(Options options) {
   return status;
 }
 
-// The exit codes of all Poise programs.
-int ExitCode(absl::StatusCode code) {
-  switch (code) {
-    case absl::StatusCode::kOk:
-      return 0;
-    case absl::StatusCode::kInvalidArgument:
-      return 2;
-    case absl::StatusCode::kFailedPrecondition:
-    case absl::StatusCode::kUnauthenticated:
-    case absl::StatusCode::kPermissionDenied:
-      return 4;
-    case absl::StatusCode::kUnavailable:
-    case absl::StatusCode::kDeadlineExceeded:
-      return 5;
-    default:
-      return 1;
-  }
-}
-
 int ServeChild() { return jobs::ServeChild(engine::MakeLightRunner); }
 
 // poised blocks it until this program can handle it.
@@ -195,7 +177,7 @@ int Main(int argc, char** argv) {
   }
   const Status status = Work(std::move(options));
   if (!status.ok()) fmt::print(stderr, "poise-worker: {}\n", base::Message(status));
-  return ExitCode(status.code());
+  return static_cast<int>(base::ExitCodeOf(status));
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
+#include <thread>
 
 #include "core/artifacts/model_artifact.h"
-#include "core/motion/editing/cut.h"
 #include "core/prediction/mixer/mixer_config.h"
 #include "core/prediction/network_body.h"
 #include "core/prediction/training/training_config.h"
@@ -189,6 +190,90 @@ TEST(PredictionServiceTest, EveryErrorNamesItsReasonAndField) {
   }
 }
 
+TEST(PredictionServiceTest, BytesThatAreNoRequestAreRefused) {
+  TestServer server;
+  const grpc::Status status = testing::RawCall(
+      server.channel(), "/poise.v1.PredictionService/Predict", "\xff\xff\xff no request");
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(testing::ErrorInfoOf(status).reason(), "MALFORMED_REQUEST");
+}
+
+/// The network that comes with the program, behind a server that takes few requests at a time.
+class ShippedPredictorTest : public ::testing::Test {
+ protected:
+  static v1::PredictRequest ShippedRequest(int frames = 60) {
+    v1::PredictRequest request = Request("predictor-cmu");
+    *request.mutable_source()->mutable_clip() = convert::ToProto(SwingingClip(frames, 60));
+    return request;
+  }
+  TestServer server_{{},
+                     engine::EngineConfig{.data_dir = {},
+                                          .shipped_models = POISE_SOURCE_DIR "/models",
+                                          .serving = {.max_requests = 2}}};
+};
+
+TEST_F(ShippedPredictorTest, WhatTheNetworkCannotAnswerIsRefusedWithReasonAndField) {
+  using R = v1::PredictRequest;
+  const std::vector<std::tuple<std::string, std::string, void (*)(R&)>> cases = {
+      {"TOO_FEW_FRAMES", "source",
+       [](R& r) { *r.mutable_source()->mutable_clip() = convert::ToProto(SwingingClip(9, 60)); }},
+      {"FRAME_RATE_TOO_LOW", "source",
+       [](R& r) { r.mutable_source()->mutable_clip()->set_frame_rate(20); }},
+      {"HORIZON_TOO_LONG", "horizon_s", [](R& r) { r.set_horizon_s(0.5); }},
+      {"BAD_HORIZON", "horizon_s", [](R& r) { r.set_horizon_s(0); }},
+      {"UNKNOWN_VERSION", "model", [](R& r) { r.set_model("predictor-cmu@99"); }},
+      {"UNKNOWN_MODEL", "model", [](R& r) { r.set_model("predictor-cmv"); }},
+      {"NOT_FINITE", "source.clip.root_positions",
+       [](R& r) {
+         r.mutable_source()->mutable_clip()->set_root_positions(
+             0, std::numeric_limits<float>::infinity());
+       }},
+      {"NOT_A_ROTATION", "source.clip.rotations",
+       [](R& r) { r.mutable_source()->mutable_clip()->set_rotations(0, 2); }},
+  };
+  for (const auto& [reason, field, change] : cases) {
+    v1::PredictRequest request = ShippedRequest();
+    change(request);
+    v1::PredictResponse response;
+    const Status error = convert::FromGrpc(Predict(server_, request, &response));
+    EXPECT_EQ(base::ErrorReason(error), reason) << error;
+    EXPECT_NE(base::ErrorField(error).find(field), std::string::npos)
+        << reason << ": " << base::ErrorField(error);
+  }
+  v1::PredictResponse response;
+  EXPECT_TRUE(Predict(server_, ShippedRequest(), &response).ok()) << "and goes on answering";
+}
+
+TEST_F(ShippedPredictorTest, TooManyRequestsAreRefusedWithATimeToComeAgain) {
+  std::atomic<int> answered = 0, refused = 0;
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 12; ++i) {
+    clients.emplace_back([&] {
+      for (int call = 0; call < 5; ++call) {
+        v1::PredictResponse response;
+        const Status error = convert::FromGrpc(Predict(server_, ShippedRequest(), &response));
+        if (error.ok()) {
+          ++answered;
+          continue;
+        }
+        ++refused;
+        EXPECT_EQ(base::ErrorReason(error), "MODEL_BUSY") << error;
+        EXPECT_TRUE(absl::IsResourceExhausted(error));
+        EXPECT_TRUE(base::RetryDelay(error).has_value());
+      }
+    });
+  }
+  for (std::thread& client : clients) client.join();
+  EXPECT_GT(answered, 0);
+  EXPECT_EQ(answered + refused, 60);
+  const std::string metrics = server_.telemetry().Text();
+  for (const char* name : {"poise_predict_refused_total", "poise_predict_requests",
+                           "poise_predict_batches_total", "poise_predict_wait_seconds"}) {
+    EXPECT_NE(metrics.find(std::string(name)), std::string::npos) << name;
+  }
+  EXPECT_NE(metrics.find("model=\"predictor-cmu@1\""), std::string::npos);
+}
+
 TEST(PredictionServiceTest, AFutureTooLargeForAMessageIsRefused) {
   TestServer server;
   v1::PredictRequest request = Request();
@@ -197,129 +282,6 @@ TEST(PredictionServiceTest, AFutureTooLargeForAMessageIsRefused) {
   v1::PredictResponse response;
   EXPECT_EQ(base::ErrorReason(convert::FromGrpc(Predict(server, request, &response))),
             "REQUEST_TOO_LARGE");
-}
-
-/// A stream of forecasts, one message at a time.
-class Stream {
- public:
-  explicit Stream(TestServer& server)
-      : stub_(v1::PredictionService::NewStub(server.channel())),
-        stream_(stub_->PredictStream(&context_)) {}
-
-  void SendSetup(const std::string& model, double horizon_s = 0.1) {
-    v1::PredictStreamRequest request;
-    *request.mutable_setup() = convert::ToProto(api::ForecastStreamSpec{
-        .model = model, .horizon_s = horizon_s, .skeleton = testing::Biped(), .frame_rate = 120});
-    stream_->Write(request);
-  }
-  void SendFrames(const motion::Clip& clip, int first, int count) {
-    v1::PredictStreamRequest request;
-    *request.mutable_frames() = convert::ToObservedFrames(*motion::Cut(clip, first, count));
-    stream_->Write(request);
-  }
-  bool Read() { return stream_->Read(&response_); }
-  void WritesDone() { stream_->WritesDone(); }
-  grpc::Status Finish() { return stream_->Finish(); }
-  const v1::PredictStreamResponse& response() const { return response_; }
-  grpc::ClientContext& context() { return context_; }
-
- private:
-  grpc::ClientContext context_;
-  std::unique_ptr<v1::PredictionService::Stub> stub_;
-  std::unique_ptr<grpc::ClientReaderWriter<v1::PredictStreamRequest, v1::PredictStreamResponse>>
-      stream_;
-  v1::PredictStreamResponse response_;
-};
-
-TEST(PredictStreamTest, EveryFrameIsAnsweredOnceThereAreEnough) {
-  TestServer server;
-  const motion::Clip clip = SwingingClip(50);
-  Stream stream(server);
-  stream.SendSetup("constant-velocity");
-  stream.SendFrames(clip, 0, 1);  // a velocity needs two
-  for (int frame = 1; frame < 50; ++frame) {
-    stream.SendFrames(clip, frame, 1);
-    ASSERT_TRUE(stream.Read()) << frame;
-    EXPECT_EQ(stream.response().observed_frames(), frame + 1);
-    EXPECT_EQ(stream.response().frame_times_s_size(), frame == 1 ? 12 : 0);
-    EXPECT_EQ(stream.response().model(), frame == 1 ? "constant-velocity" : "");
-  }
-  // The last answer is the one that the unary method gives for the whole clip.
-  v1::PredictRequest request = Request("constant-velocity");
-  *request.mutable_source()->mutable_clip() = convert::ToProto(clip);
-  request.set_horizon_s(0.1);
-  v1::PredictResponse whole;
-  ASSERT_TRUE(Predict(server, request, &whole).ok());
-  ASSERT_EQ(stream.response().rotations_size(), whole.clips(0).rotations_size());
-  for (int i = 0; i < whole.clips(0).rotations_size(); ++i) {
-    EXPECT_NEAR(stream.response().rotations(i), whole.clips(0).rotations(i), 1e-5) << i;
-  }
-  stream.WritesDone();
-  EXPECT_FALSE(stream.Read());
-  EXPECT_TRUE(stream.Finish().ok());
-}
-
-TEST(PredictStreamTest, SeveralFramesInOneMessageAreAnsweredOnce) {
-  TestServer server;
-  Stream stream(server);
-  stream.SendSetup("zero-velocity");
-  stream.SendFrames(SwingingClip(50), 0, 20);
-  stream.SendFrames(SwingingClip(50), 20, 30);
-  ASSERT_TRUE(stream.Read());
-  EXPECT_EQ(stream.response().observed_frames(), 20);
-  ASSERT_TRUE(stream.Read());
-  EXPECT_EQ(stream.response().observed_frames(), 50);
-  stream.WritesDone();
-  EXPECT_FALSE(stream.Read());
-  EXPECT_TRUE(stream.Finish().ok());
-}
-
-TEST(PredictStreamTest, BrokenMessagesEndTheStreamWithTheReason) {
-  TestServer server;
-  const auto reason = [](Stream& stream) {
-    while (stream.Read()) {
-    }
-    return base::ErrorReason(convert::FromGrpc(stream.Finish()));
-  };
-  Stream without_setup(server);
-  without_setup.SendFrames(SwingingClip(5), 0, 5);
-  EXPECT_EQ(reason(without_setup), "MISSING_SETUP");
-  Stream twice(server);
-  twice.SendSetup("zero-velocity");
-  twice.SendSetup("zero-velocity");
-  EXPECT_EQ(reason(twice), "UNEXPECTED_MESSAGE");
-  Stream unknown(server);
-  unknown.SendSetup("clairvoyant");
-  EXPECT_EQ(reason(unknown), "UNKNOWN_MODEL");
-  Stream far(server);
-  far.SendSetup("zero-velocity", 61);
-  EXPECT_EQ(reason(far), "BAD_HORIZON");
-}
-
-TEST(PredictStreamTest, ClientThatGoesAwayLeavesNothingBehind) {
-  TestServer server;
-  {
-    Stream stream(server);
-    stream.SendSetup("zero-velocity");
-    stream.SendFrames(SwingingClip(5), 0, 5);
-    ASSERT_TRUE(stream.Read());
-    stream.context().TryCancel();
-    EXPECT_EQ(stream.Finish().error_code(), grpc::StatusCode::CANCELLED);
-  }
-  const absl::Time end = absl::Now() + absl::Seconds(10);
-  while (server.server().calls() > 0 && absl::Now() < end) absl::SleepFor(absl::Milliseconds(5));
-  EXPECT_EQ(server.server().calls(), 0);
-}
-
-TEST(PredictStreamTest, DeadlineEndsAStreamThatIsSilent) {
-  ServerConfig config;
-  config.methods.predict_stream = {.default_deadline = absl::Milliseconds(200),
-                                   .max_deadline = absl::Milliseconds(200)};
-  TestServer server(config);
-  Stream stream(server);
-  stream.SendSetup("zero-velocity");
-  EXPECT_FALSE(stream.Read());
-  EXPECT_FALSE(stream.Finish().ok());
 }
 
 }  // namespace

@@ -29,11 +29,16 @@ TestServer::TestServer(server::ServerConfig config, int compute_threads)
     : TestServer(std::move(config), compute_threads, engine::JobManagerConfig()) {}
 
 TestServer::TestServer(server::ServerConfig config, int compute_threads,
-                       const engine::JobManagerConfig& jobs) {
+                       const engine::JobManagerConfig& jobs)
+    : TestServer(
+          std::move(config),
+          engine::EngineConfig{.data_dir = {}, .compute_threads = compute_threads, .jobs = jobs}) {}
+
+TestServer::TestServer(server::ServerConfig config, engine::EngineConfig engine) {
   server::StartLog("off").IgnoreError();
   config.listen = "127.0.0.1:0";
-  engine_ = OrDie(engine::Engine::Create(
-      {.data_dir = folder_.path(), .compute_threads = compute_threads, .jobs = jobs}, telemetry_));
+  engine.data_dir = folder_.path();
+  engine_ = OrDie(engine::Engine::Create(engine, telemetry_));
   server_ = OrDie(server::Server::Start(config, *engine_, telemetry_));
   channel_ = NewChannel();
 }

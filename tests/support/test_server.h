@@ -22,6 +22,8 @@ class TestServer {
   explicit TestServer(server::ServerConfig config = {}, int compute_threads = 2);
   TestServer(server::ServerConfig config, int compute_threads,
              const engine::JobManagerConfig& jobs);
+  /// The data folder of `engine` is this server's own.
+  TestServer(server::ServerConfig config, engine::EngineConfig engine);
 
   /// A connection of its own, not shared with other channels.
   std::shared_ptr<grpc::Channel> NewChannel() const;

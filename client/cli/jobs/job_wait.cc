@@ -27,6 +27,10 @@ StatusOr<api::Job> JobWait::End(client::Client& client, api::Job job) {
 Status JobWait::Answer(client::Client& client, api::Job job) {
   if (follower_) console_.Note(convert::JobName(job.id));
   POISE_ASSIGN_OR_RETURN(job, End(client, std::move(job)));
+  return Report(job);
+}
+
+Status JobWait::Report(const api::Job& job) const {
   if (console_.json()) {
     console_.PrintJson(JobJson(job));
   } else {

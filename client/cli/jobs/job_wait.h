@@ -28,6 +28,8 @@ class JobWait {
 
   /// Ends the command with the job that it made: its name, or with --wait its end, as JobOutcome.
   Status Answer(client::Client& client, api::Job job);
+  /// Ends a command that waited for a job with that job at its end: why it failed.
+  Status Report(const api::Job& job) const;
 
  private:
   const Console& console_;

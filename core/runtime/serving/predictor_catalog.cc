@@ -9,6 +9,7 @@
 
 #include "core/base/config_fields.h"
 #include "core/prediction/predictor_registry.h"
+#include "core/runtime/serving/batching_predictor.h"
 
 namespace poise::serving {
 namespace {
@@ -49,11 +50,18 @@ Status PredictorCatalog::UnknownModel(const std::string& name) const {
 }
 
 StatusOr<ServedPredictor> PredictorCatalog::Find(std::string_view model) {
+  {
+    std::lock_guard lock(mutex_);
+    const auto known = meanings_.find(model);
+    if (known != meanings_.end() && generation_ == models_.generation()) {
+      return Touch(known->second);
+    }
+  }
   const StatusOr<api::ModelReference> reference = api::ModelReference::Parse(model);
   if (!reference.ok()) return AtModel(reference.status());
   std::shared_ptr<const prediction::Predictor> floor =
       prediction::FindBuiltInPredictor(reference->name);
-  if (floor == nullptr) return FindTrained(*reference);
+  if (floor == nullptr) return FindTrained(model, *reference);
   if (reference->version.empty() || reference->version == kBuiltInVersion) {
     return ServedPredictor{reference->name, kBuiltInVersion, std::move(floor)};
   }
@@ -62,28 +70,79 @@ StatusOr<ServedPredictor> PredictorCatalog::Find(std::string_view model) {
                                     reference->version, kBuiltInVersion));
 }
 
-StatusOr<ServedPredictor> PredictorCatalog::FindTrained(const api::ModelReference& reference) {
-  const StatusOr<api::Model> found = models_.Get(reference);
-  if (!found.ok()) {
-    const bool known = models_.Get({.name = reference.name, .version = ""}).ok();
-    if (found.status().code() != absl::StatusCode::kNotFound) return AtModel(found.status());
-    if (!known) return UnknownModel(reference.name);
-    return base::NotFound("UNKNOWN_VERSION", "model", base::Message(found.status()));
+StatusOr<ServedPredictor> PredictorCatalog::FindTrained(std::string_view model,
+                                                        const api::ModelReference& reference) {
+  const int64_t generation = models_.generation();
+  POISE_ASSIGN_OR_RETURN(const api::ModelReference version, Resolve(reference));
+  const std::string full_name = version.ToString();
+  std::unique_lock lock(mutex_);
+  while (true) {
+    if (const auto entry = FindLoaded(version.name, version.version); entry != loaded_.end()) {
+      Remember(model, generation, entry);
+      return Touch(entry);
+    }
+    if (!loading_.contains(full_name)) break;
+    if (reference.version.empty()) {
+      const auto older = FindLoaded(version.name, "");
+      if (older != loaded_.end()) return Touch(older);
+    }
+    load_ended_.wait(lock);
   }
-  std::lock_guard lock(mutex_);
-  for (auto entry = loaded_.begin(); entry != loaded_.end(); ++entry) {
-    if (entry->name != found->name || entry->version != found->version) continue;
-    loaded_.splice(loaded_.begin(), loaded_, entry);
-    return loaded_.front();
+  loading_.insert(full_name);
+  lock.unlock();
+  StatusOr<ServedPredictor> loaded = Load(version);
+  lock.lock();
+  loading_.erase(full_name);
+  load_ended_.notify_all();
+  if (!loaded.ok()) return AtModel(loaded.status());
+  loaded_.push_front(*loaded);
+  Remember(model, generation, loaded_.begin());
+  if (loaded_.size() > kMaxLoaded) {
+    loaded_.pop_back();
+    meanings_.clear();
   }
-  const auto artifact = models_.Load({.name = found->name, .version = found->version});
-  if (!artifact.ok()) return AtModel(artifact.status());
-  const auto predictor = prediction::MakeTrainedPredictor(*artifact);
-  if (!predictor.ok()) return AtModel(predictor.status());
-  if (const Status status = WarmUp(**predictor); !status.ok()) return AtModel(status);
-  loaded_.push_front({found->name, found->version, *predictor});
-  if (loaded_.size() > kMaxLoaded) loaded_.pop_back();
-  return loaded_.front();
+  return loaded;
+}
+
+StatusOr<api::ModelReference> PredictorCatalog::Resolve(
+    const api::ModelReference& reference) const {
+  StatusOr<api::ModelReference> found = models_.Resolve(reference);
+  if (found.ok()) return found;
+  if (found.status().code() != absl::StatusCode::kNotFound) return AtModel(found.status());
+  const bool known = models_.Resolve({.name = reference.name, .version = ""}).ok();
+  if (!known) return UnknownModel(reference.name);
+  return base::NotFound("UNKNOWN_VERSION", "model", base::Message(found.status()));
+}
+
+StatusOr<ServedPredictor> PredictorCatalog::Load(const api::ModelReference& version) const {
+  POISE_ASSIGN_OR_RETURN(const auto artifact, models_.Load(version));
+  POISE_ASSIGN_OR_RETURN(auto predictor, prediction::MakeTrainedPredictor(artifact));
+  POISE_RETURN_IF_ERROR(WarmUp(*predictor));
+  const base::Labels labels = {{"model", version.ToString()}};
+  return ServedPredictor{
+      version.name, version.version,
+      std::make_shared<BatchingPredictor>(std::move(predictor), config_, telemetry_, labels),
+      std::make_shared<LoadGate>(config_, telemetry_, labels)};
+}
+
+PredictorCatalog::Loaded::iterator PredictorCatalog::FindLoaded(const std::string& name,
+                                                                const std::string& version) {
+  return std::find_if(loaded_.begin(), loaded_.end(), [&](const ServedPredictor& entry) {
+    return entry.name == name && (version.empty() || entry.version == version);
+  });
+}
+
+const ServedPredictor& PredictorCatalog::Touch(Loaded::iterator entry) {
+  loaded_.splice(loaded_.begin(), loaded_, entry);
+  return *entry;
+}
+
+void PredictorCatalog::Remember(std::string_view model, int64_t generation,
+                                Loaded::iterator entry) {
+  if (generation != models_.generation()) return;
+  if (generation_ != generation) meanings_.clear();
+  generation_ = generation;
+  meanings_.insert_or_assign(std::string(model), entry);
 }
 
 }  // namespace poise::serving

@@ -1,6 +1,5 @@
 // `poise augment` against a real poised.
 #include <gmock/gmock.h>
-#include <signal.h>
 
 #include <fstream>
 
@@ -22,28 +21,9 @@ std::string ReadAll(const std::filesystem::path& path) {
   return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
-/// A poised on a port of its own.
-class Server {
- public:
-  Server()
-      : process_({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--data-dir",
-                  (folder_.path() / "data").string()}) {
-    EXPECT_TRUE(process_.WaitForOutput("\n", absl::Seconds(60))) << process_.ErrorOutput();
-    const std::string ready = process_.Output();
-    address_ = base::Json::parse(ready.substr(0, ready.find('\n'))).at("address");
-  }
-  const std::string& address() const { return address_; }
-  void Kill() { process_.Signal(SIGKILL); }
-
- private:
-  TemporaryFolder folder_;
-  Process process_;
-  std::string address_;
-};
-
 class AugmentCommandTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { server_ = new Server; }
+  static void SetUpTestSuite() { server_ = new PoiseServer(/*workers=*/0); }
   static void TearDownTestSuite() { delete server_; }
 
   AugmentCommandTest() : environment_{{"POISE_SERVER", server_->address()}} {
@@ -60,12 +40,12 @@ class AugmentCommandTest : public ::testing::Test {
     return RunPoise(Arguments(std::move(more)), environment_);
   }
 
-  static Server* server_;  // all tests but one leave it alone
+  static PoiseServer* server_;  // all tests but one leave it alone
   TemporaryFolder folder_;
   std::map<std::string, std::string> environment_;
 };
 
-Server* AugmentCommandTest::server_ = nullptr;
+PoiseServer* AugmentCommandTest::server_ = nullptr;
 
 TEST_F(AugmentCommandTest, EveryVariantIsAFileAndAJsonLine) {
   const PoiseRun run =
@@ -150,7 +130,7 @@ TEST_F(AugmentCommandTest, ATimeLimitExitsWithSix) {
 }
 
 TEST_F(AugmentCommandTest, AServerThatDiesMidwayIsReported) {
-  Server mortal;
+  PoiseServer mortal(/*workers=*/0);
   environment_["POISE_SERVER"] = mortal.address();
   std::vector<std::string> arguments = Arguments({"-n", "1000000", "--json"});
   arguments.insert(arguments.begin(), ProgramPath("poise"));

@@ -1,12 +1,9 @@
 // `poise jobs` and `poise admin` against a real poised with a worker of its own.
 #include <gmock/gmock.h>
-#include <signal.h>
 
 #include <filesystem>
 
 #include "tests/client/cli/poise_program.h"
-#include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 
 namespace poise::testing {
 namespace {
@@ -17,24 +14,12 @@ using ::testing::Not;
 
 class JobsEndToEndTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    server_ = new Process({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--workers", "2",
-                           "--lame-duck-seconds", "0", "--data-dir", DataDir()});
-    ASSERT_TRUE(server_->WaitForOutput("\n", absl::Seconds(60))) << server_->ErrorOutput();
-    const std::string ready = server_->Output();
-    address_ = base::Json::parse(ready.substr(0, ready.find('\n'))).at("address");
-  }
-  static void TearDownTestSuite() {
-    server_->Signal(SIGTERM);
-    EXPECT_EQ(server_->Wait(), 0);
-    delete server_;
-    delete folder_;
-  }
+  static void SetUpTestSuite() { server_ = new PoiseServer(/*workers=*/2); }
+  static void TearDownTestSuite() { delete server_; }
 
-  static std::string DataDir() { return folder_->path() / "data"; }
+  static std::string DataDir() { return server_->Path("data"); }
   static PoiseRun Poise(std::vector<std::string> arguments) {
-    return RunPoise(std::move(arguments), {{"POISE_SERVER", address_}});
+    return server_->Poise(std::move(arguments));
   }
   // The last line of a command with --json.
   static base::Json Answer(std::vector<std::string> arguments) {
@@ -43,14 +28,10 @@ class JobsEndToEndTest : public ::testing::Test {
     return run.out.empty() ? base::Json() : run.JsonLines().back();
   }
 
-  static TemporaryFolder* folder_;
-  static Process* server_;
-  static std::string address_;
+  static PoiseServer* server_;
 };
 
-TemporaryFolder* JobsEndToEndTest::folder_ = nullptr;
-Process* JobsEndToEndTest::server_ = nullptr;
-std::string JobsEndToEndTest::address_;
+PoiseServer* JobsEndToEndTest::server_ = nullptr;
 
 TEST_F(JobsEndToEndTest, AJobIsWaitedForAndItsFilesAreFetched) {
   const PoiseRun run = Poise({"jobs", "create", "selftest", "--param", "steps=20", "--param",
@@ -60,7 +41,7 @@ TEST_F(JobsEndToEndTest, AJobIsWaitedForAndItsFilesAreFetched) {
   EXPECT_EQ(job["state"], "SUCCEEDED");
   EXPECT_EQ(job["progress"]["step"], 20);
   EXPECT_EQ(job["attempts"][0]["outcome"], "SUCCEEDED");
-  const std::string out = folder_->path() / "out";
+  const std::string out = server_->Path("out");
   const base::Json result = Answer({"jobs", "result", job["name"], "--out", out});
   EXPECT_GE(result["files"].size(), 3u);
   for (const base::Json& file : result["files"]) {

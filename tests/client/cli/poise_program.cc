@@ -34,7 +34,13 @@ PoiseServer::PoiseServer(int workers)
   address_ = base::Json::parse(ready.substr(0, ready.find('\n'))).at("address");
 }
 
+void PoiseServer::Kill() {
+  process_.Signal(SIGKILL);
+  killed_ = true;
+}
+
 PoiseServer::~PoiseServer() {
+  if (killed_) return;
   process_.Signal(SIGTERM);
   EXPECT_EQ(process_.Wait(), 0);
 }

@@ -41,6 +41,8 @@ class PoiseServer {
   PoiseServer& operator=(const PoiseServer&) = delete;
 
   const std::string& address() const { return address_; }
+  /// As by a crash; then no clean end is expected.
+  void Kill();
   /// Below the server's folder, for the files of tests.
   std::string Path(const std::string& below) const { return (folder_.path() / below).string(); }
   PoiseRun Poise(std::vector<std::string> arguments) const;
@@ -49,6 +51,7 @@ class PoiseServer {
   TemporaryFolder folder_;
   Process process_;
   std::string address_;
+  bool killed_ = false;
 };
 
 }  // namespace poise::testing

@@ -4,8 +4,6 @@
 
 #include "core/motion/io/clip_file.h"
 #include "tests/client/cli/poise_program.h"
-#include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/test_clips.h"
 
 namespace poise::testing {
@@ -13,24 +11,16 @@ namespace {
 
 class PredictCommandTest : public ::testing::Test {
  protected:
-  PredictCommandTest()
-      : poised_({ProgramPath("poised"), "--listen", "127.0.0.1:0", "--data-dir",
-                 (folder_.path() / "data").string()}) {
-    EXPECT_TRUE(poised_.WaitForOutput("\n", absl::Seconds(60))) << poised_.ErrorOutput();
-    const std::string ready = poised_.Output();
-    environment_["POISE_SERVER"] = base::Json::parse(ready.substr(0, ready.find('\n')))["address"];
+  PredictCommandTest() {
     EXPECT_TRUE(motion::WriteBvhFile(Path("swing.bvh"), SwingingClip(5000)).ok());
   }
-
-  std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::string Path(const std::string& name) const { return server_.Path(name); }
   PoiseRun Predict(std::vector<std::string> more) const {
     more.insert(more.begin(), {"predict", Path("swing.bvh")});
-    return RunPoise(more, environment_);
+    return server_.Poise(std::move(more));
   }
 
-  TemporaryFolder folder_;
-  Process poised_;
-  std::map<std::string, std::string> environment_;
+  PoiseServer server_{/*workers=*/0};
 };
 
 TEST_F(PredictCommandTest, WritesTheFutureAndSaysWhenItsFramesAre) {

@@ -196,7 +196,7 @@ Row NewVersions(const Subject& subject, Service& service) {
   artifacts::ModelArtifact model = subject.model;
   const auto add = [&](uint64_t seed) {
     model.card.seed = seed;
-    const auto stored = OrDie(service.engine->artifacts().Put(artifacts::PackPredictModel(model)));
+    const auto stored = OrDie(service.engine->artifacts().Put(artifacts::PackModel(model)));
     OrDie(service.engine->models().Import(kName, stored.name));
   };
   add(0);

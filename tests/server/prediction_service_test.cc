@@ -220,7 +220,7 @@ TEST_F(ShippedPredictorTest, WhatTheNetworkCannotAnswerIsRefusedWithReasonAndFie
       {"FRAME_RATE_TOO_LOW", "source",
        [](R& r) { r.mutable_source()->mutable_clip()->set_frame_rate(20); }},
       {"HORIZON_TOO_LONG", "horizon_s", [](R& r) { r.set_horizon_s(0.5); }},
-      {"BAD_HORIZON", "horizon_s", [](R& r) { r.set_horizon_s(0); }},
+      {"BAD_HORIZON", "horizon_s", [](R& r) { r.set_horizon_s(-0.1); }},
       {"UNKNOWN_VERSION", "model", [](R& r) { r.set_model("predictor-cmu@99"); }},
       {"UNKNOWN_MODEL", "model", [](R& r) { r.set_model("predictor-cmv"); }},
       {"NOT_FINITE", "source.clip.root_positions",

@@ -48,6 +48,7 @@ std::vector<base::Field> PredictorTraining::Fields() {
 Status PredictorTraining::Validate() {
   POISE_RETURN_IF_ERROR(base::CheckRanges(Fields()));
   POISE_RETURN_IF_ERROR(mixer.Validate());
+  POISE_RETURN_IF_ERROR(gcn.Validate());
   POISE_RETURN_IF_ERROR(trainer.Validate());
   return optimizer.Validate();
 }

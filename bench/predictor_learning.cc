@@ -200,8 +200,10 @@ StatusOr<artifacts::ModelArtifact> Learn(const Options& options, const Fold& fol
   std::fprintf(stderr, "\n");
   const api::ModelCard& card = trained.model.card;
   const auto validation = card.scores.find("validation_rad");
-  std::printf("trained %ld steps in %.0f s, best after %ld: validation %.4f\n",
-              static_cast<long>(card.steps), trained.seconds, static_cast<long>(trained.best_step),
+  std::printf("trained %ld steps in %.0f s (%.1f ms each), best after %ld: validation %.4f\n",
+              static_cast<long>(card.steps), trained.seconds,
+              1e3 * trained.seconds / static_cast<double>(card.steps),
+              static_cast<long>(trained.best_step),
               validation == card.scores.end() ? 0.0 : validation->second);
   if (!options.save.empty()) {
     std::filesystem::create_directories(folder);

@@ -1,8 +1,8 @@
 #include "bench/learning_setup.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
+#include "bench/overrides.h"
 #include "core/base/random.h"
 #include "core/motion/io/clip_file.h"
 
@@ -22,15 +22,6 @@ std::unique_ptr<pipeline::AugmentFlow> Variants(const LearningOptions& options,
   spec.seed = base::DeriveSeed(options.seed, {stream});
   spec.with_plausibility = false;
   return Must(pipeline::AugmentFlow::Create(spec, {{clip, roles}}));
-}
-
-base::Overrides Parsed(const std::vector<std::string>& texts) {
-  base::Overrides overrides;
-  for (const std::string& text : texts) {
-    const size_t equals = text.find('=');
-    overrides[text.substr(0, equals)] = text.substr(std::min(equals, text.size() - 1) + 1);
-  }
-  return overrides;
 }
 
 }  // namespace
@@ -61,7 +52,7 @@ LearningSetup LearningSetup::From(const LearningOptions& options, std::vector<ba
   std::vector<base::Field> fields = imitation.Fields();
   base::Append(fields, base::Nested("correction", correction.Fields()));
   base::Append(fields, std::move(more));
-  Must(base::ApplyOverrides(Parsed(options.overrides), fields));
+  Must(base::ApplyOverrides(ToOverrides(options.overrides), fields));
   auto test = Variants(options, clip, roles, kTestStream);
   auto training = Variants(options, clip, roles, kTrainingStream);
   return {.clip = std::move(clip),

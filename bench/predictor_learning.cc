@@ -1,17 +1,22 @@
 // Trains a predictor on a published benchmark and tests it beside the floors:
 //
 //   predictor_learning --data DIR/cmu --protocol seeded75 all --seeds 3 --out r.csv
-//   predictor_learning --data DIR/hdm05 --benchmark hdm05 --class kickLFront1Reps --left-out tr
-//       --protocol loso
+//   predictor_learning --data DIR/hdm05 --benchmark hdm05 --class kickLFront1Reps
+//       --preset rnn-hdm05 --protocol loso --save models/kick
 //
-// The results file has the columns of `poise evaluate`. Progress goes to standard error.
+// HDM05 without one actor at a time: a training per actor who is left out, and their mean. What was
+// saved is not trained again, and a training that was interrupted goes on. The results file has the
+// columns of `poise evaluate`. Progress goes to standard error.
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "CLI/CLI.hpp"
+#include "bench/overrides.h"
 #include "core/pipeline/evaluate_predictor.h"
 #include "core/prediction/predictor_registry.h"
 #include "core/prediction/training/train_predictor.h"
@@ -19,11 +24,15 @@
 namespace poise {
 namespace {
 
+using prediction::PredictorPtr;
+
+constexpr absl::Duration kCheckpointInterval = absl::Minutes(1);
+
 struct Options {
   std::string data;
   std::string benchmark = "cmu";
-  std::string action_class;  // of HDM05; empty: all
-  std::string left_out;
+  std::string action_class;           // of HDM05; empty: all
+  std::vector<std::string> left_out;  // empty: each actor in turn
   std::vector<std::string> protocols = {"seeded75"};
   int seeds = 1;
   uint64_t first_seed = 1;
@@ -35,43 +44,87 @@ struct Options {
   std::string save;                 // prefix of the models' folders
 };
 
-StatusOr<motion::BenchmarkClips> LoadClips(const Options& options) {
-  if (options.benchmark == "cmu") return motion::LoadCmuBenchmark(options.data);
-  return motion::LoadHdm05Benchmark(options.data, options.action_class, options.left_out);
+base::CancellationToken& Stop() {
+  static base::CancellationToken token;
+  return token;
+}
+
+// Sequences to learn from and to test with; of HDM05 the test is one actor.
+struct Fold {
+  std::string actor;  // empty: of CMU
+  motion::BenchmarkClips clips;
+};
+
+StatusOr<std::vector<Fold>> LoadFolds(const Options& options) {
+  std::vector<Fold> folds;
+  if (options.benchmark == "cmu") {
+    POISE_ASSIGN_OR_RETURN(motion::BenchmarkClips clips, motion::LoadCmuBenchmark(options.data));
+    folds.push_back({"", std::move(clips)});
+    return folds;
+  }
+  std::vector<std::string> actors = options.left_out;
+  if (actors.empty()) {
+    POISE_ASSIGN_OR_RETURN(actors, motion::Hdm05Actors(options.data, options.action_class));
+  }
+  for (const std::string& actor : actors) {
+    POISE_ASSIGN_OR_RETURN(motion::BenchmarkClips clips,
+                           motion::LoadHdm05Benchmark(options.data, options.action_class, actor));
+    folds.push_back({actor, std::move(clips)});
+  }
+  return folds;
 }
 
 StatusOr<prediction::PredictorTraining> Training(const Options& options) {
   POISE_ASSIGN_OR_RETURN(prediction::PredictorTraining config,
                          prediction::PredictorTraining::FromPreset(options.preset));
-  base::Overrides overrides;
-  for (const std::string& assignment : options.assignments) {
-    const size_t equals = assignment.find('=');
-    overrides[assignment.substr(0, equals)] =
-        equals == std::string::npos ? "" : assignment.substr(equals + 1);
-  }
-  POISE_RETURN_IF_ERROR(base::ApplyOverrides(overrides, config.Fields()));
+  POISE_RETURN_IF_ERROR(
+      base::ApplyOverrides(bench::ToOverrides(options.assignments), config.Fields()));
   POISE_RETURN_IF_ERROR(config.Validate());
   return config;
+}
+
+// Scores of the folds as those of one test: each fold is an action of it, named after its actor.
+pipeline::PredictorScores Together(const std::vector<Fold>& folds,
+                                   std::vector<pipeline::PredictorScores> scores) {
+  if (folds.size() == 1) return scores.front();
+  pipeline::PredictorScores all{.actions = {},
+                                .mean = std::vector<double>(scores.front().mean.size())};
+  for (size_t i = 0; i < folds.size(); ++i) {
+    for (pipeline::ActionErrors& action : scores[i].actions) {
+      action.action += "-" + folds[i].actor;
+      all.actions.push_back(std::move(action));
+    }
+    for (size_t frame = 0; frame < all.mean.size(); ++frame) {
+      all.mean[frame] += scores[i].mean[frame] / static_cast<double>(folds.size());
+    }
+  }
+  return all;
 }
 
 /// Rows of the results file, and a table for people.
 class Results {
  public:
-  explicit Results(const motion::BenchmarkClips& clips) : clips_(clips) {}
+  explicit Results(const std::vector<Fold>& folds) : folds_(folds) {}
 
-  Status Test(const prediction::Predictor& predictor, const pipeline::ScoreLabels& labels,
+  /// A predictor for each fold.
+  Status Test(const std::vector<PredictorPtr>& predictors, const pipeline::ScoreLabels& labels,
               const std::vector<std::string>& protocols) {
     for (const std::string& name : protocols) {
       POISE_ASSIGN_OR_RETURN(const motion::EvaluationProtocol protocol, motion::FindProtocol(name));
-      POISE_ASSIGN_OR_RETURN(const pipeline::PredictorScores scores,
-                             pipeline::EvaluatePredictor(predictor, clips_, protocol, {}));
-      rows_ +=
-          pipeline::ScoresCsvRows(scores, labels, protocol, clips_.test.front().clip.frame_rate());
+      std::vector<pipeline::PredictorScores> scores;
+      for (size_t i = 0; i < folds_.size(); ++i) {
+        POISE_ASSIGN_OR_RETURN(
+            scores.emplace_back(),
+            pipeline::EvaluatePredictor(*predictors[i], folds_[i].clips, protocol, {}));
+      }
+      const pipeline::PredictorScores all = Together(folds_, std::move(scores));
+      rows_ += pipeline::ScoresCsvRows(all, labels, protocol,
+                                       folds_[0].clips.test.front().clip.frame_rate());
       std::printf("%-18s %-9s seed %d  mean", labels.model.c_str(), name.c_str(),
                   static_cast<int>(labels.seed));
       for (const int frame : protocol.frames) {
-        if (frame < static_cast<int>(scores.mean.size())) {
-          std::printf("  f%d %.3f", frame, scores.mean[frame]);
+        if (frame < static_cast<int>(all.mean.size())) {
+          std::printf("  f%d %.3f", frame, all.mean[frame]);
         }
       }
       std::printf("\n");
@@ -87,7 +140,7 @@ class Results {
   }
 
  private:
-  const motion::BenchmarkClips& clips_;
+  const std::vector<Fold>& folds_;
   std::string rows_;
 };
 
@@ -102,64 +155,98 @@ void PrintProgress(const base::Progress& progress) {
                metric("eta_s"));
 }
 
-std::string TrainedOn(const Options& options) {
+std::string TrainedOn(const Options& options, const Fold& fold) {
   if (options.benchmark == "cmu") return "all training sequences of the prediction benchmark";
   return fmt::format("{}{}",
                      options.action_class.empty() ? "all classes" : "class " + options.action_class,
-                     options.left_out.empty() ? "" : ", without actor " + options.left_out);
+                     fold.actor.empty() ? "" : ", without actor " + fold.actor);
 }
 
-// A model folder, and its learning curve beside it.
-Status Save(const Options& options, const prediction::PredictorResult& trained, uint64_t seed) {
-  const std::filesystem::path folder = fmt::format("{}_{}", options.save, seed);
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder.string() + "_curve.csv") << trained.curve_csv;
-  return artifacts::WriteModelFolder(trained.model, folder);
+// A training's place on disk: the model's folder, and files beside it.
+std::filesystem::path FolderOf(const Options& options, const Fold& fold, uint64_t seed) {
+  return fmt::format("{}{}_{}", options.save, fold.actor.empty() ? "" : "_" + fold.actor, seed);
 }
 
-Status LearnAndTest(const Options& options, const motion::BenchmarkClips& clips, uint64_t seed,
-                    Results& results) {
+StatusOr<artifacts::ModelArtifact> Learn(const Options& options, const Fold& fold, uint64_t seed) {
   POISE_ASSIGN_OR_RETURN(const prediction::PredictorTraining config, Training(options));
+  const std::filesystem::path folder = FolderOf(options, fold, seed);
+  const std::string checkpoint_path = folder.string() + ".checkpoint";
   base::RunContext context;
   context.seed = seed;
   context.progress = PrintProgress;
+  context.cancellation = Stop();
+  std::optional<std::string> checkpoint;
+  learning::CheckpointSink sink;
+  if (!options.save.empty()) {
+    if (std::ifstream file(checkpoint_path, std::ios::binary); file) {
+      checkpoint.emplace(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    }
+    sink.interval = kCheckpointInterval;
+    sink.save = [&](std::string_view bytes, int64_t) {
+      std::ofstream(checkpoint_path + ".new", std::ios::binary) << bytes;
+      std::filesystem::rename(checkpoint_path + ".new", checkpoint_path);
+      return absl::OkStatus();
+    };
+  }
   POISE_ASSIGN_OR_RETURN(const prediction::PredictorResult trained,
-                         prediction::TrainPredictor({.clips = clips,
+                         prediction::TrainPredictor({.clips = fold.clips,
                                                      .config = config,
                                                      .preset = options.preset,
                                                      .data = options.benchmark,
                                                      .data_fingerprint = "",
                                                      .data_license = options.license,
-                                                     .trained_on = TrainedOn(options)},
-                                                    context));
+                                                     .trained_on = TrainedOn(options, fold)},
+                                                    context, checkpoint, sink));
   std::fprintf(stderr, "\n");
   const api::ModelCard& card = trained.model.card;
   const auto validation = card.scores.find("validation_rad");
-  std::printf("trained %ld steps in %.0f s, best after %ld: validation %.4f\n",
-              static_cast<long>(card.steps), trained.seconds, static_cast<long>(trained.best_step),
+  std::printf("trained %ld steps in %.0f s (%.1f ms each), best after %ld: validation %.4f\n",
+              static_cast<long>(card.steps), trained.seconds,
+              1e3 * trained.seconds / static_cast<double>(card.steps),
+              static_cast<long>(trained.best_step),
               validation == card.scores.end() ? 0.0 : validation->second);
-  if (!options.save.empty()) POISE_RETURN_IF_ERROR(Save(options, trained, seed));
-  POISE_ASSIGN_OR_RETURN(const auto predictor, prediction::MakeTrainedPredictor(trained.model));
-  return results.Test(*predictor, {config.family, options.preset, seed}, options.protocols);
+  if (!options.save.empty()) {
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder.string() + "_curve.csv") << trained.curve_csv;
+    POISE_RETURN_IF_ERROR(artifacts::WriteModelFolder(trained.model, folder));
+    std::filesystem::remove(checkpoint_path);
+  }
+  return trained.model;
+}
+
+Status LearnAndTest(const Options& options, const std::vector<Fold>& folds, uint64_t seed,
+                    Results& results) {
+  std::vector<PredictorPtr> predictors;
+  std::string family;
+  for (const Fold& fold : folds) {
+    const std::filesystem::path folder = FolderOf(options, fold, seed);
+    const bool there = !options.save.empty() && std::filesystem::exists(folder / "card.json");
+    POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
+                           there ? artifacts::ReadModelFolder(folder) : Learn(options, fold, seed));
+    POISE_ASSIGN_OR_RETURN(predictors.emplace_back(), prediction::MakeTrainedPredictor(model));
+    family = model.card.family;
+  }
+  return results.Test(predictors, {family, options.preset, seed}, options.protocols);
 }
 
 Status Run(const Options& options) {
-  POISE_ASSIGN_OR_RETURN(const motion::BenchmarkClips clips, LoadClips(options));
-  Results results(clips);
+  POISE_ASSIGN_OR_RETURN(const std::vector<Fold> folds, LoadFolds(options));
+  Results results(folds);
   for (const std::string& name : prediction::BuiltInPredictorNames()) {
-    POISE_RETURN_IF_ERROR(results.Test(*prediction::FindBuiltInPredictor(name),
-                                       {name + "@1", "", 0}, options.protocols));
+    const std::vector<PredictorPtr> floor(folds.size(), prediction::FindBuiltInPredictor(name));
+    POISE_RETURN_IF_ERROR(results.Test(floor, {name + "@1", "", 0}, options.protocols));
   }
   for (const std::string& folder : options.models) {
     POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
                            artifacts::ReadModelFolder(folder));
     POISE_ASSIGN_OR_RETURN(const auto predictor, prediction::MakeTrainedPredictor(model));
     const std::string name = std::filesystem::path(folder).parent_path().filename().string();
-    POISE_RETURN_IF_ERROR(
-        results.Test(*predictor, {name, model.card.preset, model.card.seed}, options.protocols));
+    POISE_RETURN_IF_ERROR(results.Test(std::vector<PredictorPtr>(folds.size(), predictor),
+                                       {name, model.card.preset, model.card.seed},
+                                       options.protocols));
   }
   for (int i = 0; i < options.seeds; ++i) {
-    POISE_RETURN_IF_ERROR(LearnAndTest(options, clips, options.first_seed + i, results));
+    POISE_RETURN_IF_ERROR(LearnAndTest(options, folds, options.first_seed + i, results));
     POISE_RETURN_IF_ERROR(results.Write(options.out));
   }
   return results.Write(options.out);
@@ -174,7 +261,7 @@ int main(int argc, char** argv) {
   app.add_option("--data", options.data, "Folder of the benchmark")->required();
   app.add_option("--benchmark", options.benchmark)->check(CLI::IsMember({"cmu", "hdm05"}));
   app.add_option("--class", options.action_class, "HDM05 class; all without it");
-  app.add_option("--left-out", options.left_out, "HDM05 actor that is the test");
+  app.add_option("--left-out", options.left_out, "HDM05 actors that are the test; each in turn");
   app.add_option("--protocol", options.protocols, "seeded60, seeded75, all, loso");
   app.add_option("--model", options.models, "Folder of a trained model, tested too; repeatable")
       ->allow_extra_args(false);
@@ -182,10 +269,14 @@ int main(int argc, char** argv) {
   app.add_option("--first-seed", options.first_seed);
   app.add_option("--set", options.assignments, "KEY=VALUE of the training; repeatable");
   app.add_option("--out", options.out, "Results file (CSV)");
-  app.add_option("--preset", options.preset, "recommended or gcn");
+  app.add_option("--preset", options.preset, "As PredictorTraining has them")
+      ->check(CLI::IsMember(poise::prediction::PredictorTraining::PresetNames()));
   app.add_option("--license", options.license, "Of the data, for the model's card");
-  app.add_option("--save", options.save, "Prefix for folders of models and for learning curves");
+  app.add_option("--save", options.save,
+                 "Prefix for folders of models, for learning curves, and for where to go on");
   CLI11_PARSE(app, argc, argv);
+  poise::Stop();  // made before a signal may come
+  std::signal(SIGTERM, [](int) { poise::Stop().Cancel(); });
   const poise::Status status = poise::Run(options);
   if (status.ok()) return 0;
   std::fprintf(stderr, "error: %s\n", poise::base::Message(status).c_str());

@@ -20,6 +20,7 @@
 #include <sstream>
 
 #include "CLI/CLI.hpp"
+#include "bench/overrides.h"
 #include "core/artifacts/model_artifact.h"
 #include "core/base/memory_policy.h"
 #include "core/motion/dataset/clip_folder.h"
@@ -72,12 +73,8 @@ const std::vector<Row>& TableRows() {
 StatusOr<synthesis::VaeConfig> Config(const Options& options, const Row& row) {
   POISE_ASSIGN_OR_RETURN(synthesis::VaeConfig config,
                          synthesis::VaeConfig::FromPreset(options.preset));
-  base::Overrides overrides = row.settings;
-  for (const std::string& assignment : options.assignments) {
-    const size_t equals = assignment.find('=');
-    overrides[assignment.substr(0, equals)] =
-        equals == std::string::npos ? "" : assignment.substr(equals + 1);
-  }
+  base::Overrides overrides = bench::ToOverrides(options.assignments);
+  overrides.insert(row.settings.begin(), row.settings.end());
   POISE_RETURN_IF_ERROR(base::ApplyOverrides(overrides, config.Fields()));
   return config;
 }

@@ -7,6 +7,9 @@
 #include "core/prediction/ensemble/ensemble_predictor.h"
 #include "core/prediction/gcn/gcn_predictor.h"
 #include "core/prediction/mixer/mixer_predictor.h"
+#include "core/prediction/potr/potr_predictor.h"
+#include "core/prediction/rnn/rnn_predictor.h"
+#include "core/prediction/simlpe/simlpe_predictor.h"
 #include "core/prediction/training/training_config.h"
 #include "core/prediction/zero_velocity/zero_velocity.h"
 
@@ -18,14 +21,11 @@ PredictorPtr Make() {
   return std::make_shared<Family>();
 }
 
-StatusOr<PredictorPtr> LoadMixer(const PredictorTraining& config, const NetworkBody& body,
-                                 const base::TensorFile& weights) {
-  return MixerPredictor::Create(config.mixer, body, weights);
-}
-
-StatusOr<PredictorPtr> LoadGcn(const PredictorTraining& config, const NetworkBody& body,
-                               const base::TensorFile& weights) {
-  return GcnPredictor::Create(config.gcn, body, weights);
+// Sizes of a family, and the predictor that is made of them.
+template <typename Made, auto kSizes>
+StatusOr<PredictorPtr> Load(const PredictorTraining& config, const NetworkBody& body,
+                            const base::TensorFile& weights) {
+  return Made::Create(config.*kSizes, body, weights);
 }
 
 struct Floor {
@@ -45,8 +45,11 @@ struct Family {
 };
 
 constexpr Family kFamilies[] = {
-    {"mixer", LoadMixer},
-    {"gcn", LoadGcn},
+    {"mixer", Load<MixerPredictor, &PredictorTraining::mixer>},
+    {"gcn", Load<GcnPredictor, &PredictorTraining::gcn>},
+    {"rnn", Load<RnnPredictor, &PredictorTraining::rnn>},
+    {"potr", Load<PotrPredictor, &PredictorTraining::potr>},
+    {"simlpe", Load<SimlpePredictor, &PredictorTraining::simlpe>},
 };
 
 StatusOr<const Family*> FindFamily(const std::string& name) {

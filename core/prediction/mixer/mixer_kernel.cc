@@ -1,42 +1,16 @@
 #include "core/prediction/mixer/mixer_kernel.h"
 
-// GCC 12 takes the operand that AVX-512 intrinsics leave unset for a variable in use.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#include <Eigen/Core>
 #include <algorithm>
+
+#include "core/prediction/network/layer_kernels.h"
 
 namespace poise::prediction::POISE_KERNEL_ISA {
 namespace {
 
-using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using ConstMap = Eigen::Map<const Matrix>;
-using Row = Eigen::Map<const Eigen::RowVectorXf>;
-
-constexpr float kNormEpsilon = 1e-5f;  // as LibTorch's LayerNorm
 // Samples whose tokens go through the perceptrons together. A product packs its weights first,
 // which for the tokens of one sample costs a good part of the product; more samples than these
 // leave the second level cache.
 constexpr int kSamples = 8;
-
-ConstMap Weight(const MixerLayer& layer, Eigen::Index outputs, Eigen::Index inputs) {
-  return ConstMap(layer.weight, outputs, inputs);
-}
-
-// Normalises each row to mean 0 and deviation 1, then scales and shifts its columns.
-void Normalise(const Eigen::Ref<const Matrix>& h, const MixerLayer& norm, Eigen::Ref<Matrix> out) {
-  const float width = static_cast<float>(h.cols());
-  out = h.colwise() - h.rowwise().mean();
-  const Eigen::ArrayXf deviation =
-      (out.rowwise().squaredNorm().array() / width + kNormEpsilon).sqrt();
-  out.array().colwise() /= deviation;
-  out.array().rowwise() *= Row(norm.weight, h.cols()).array();
-  out.rowwise() += Row(norm.bias, h.cols());
-}
-
-void Apply(const MixerLayer& layer, const Eigen::Ref<const Matrix>& in, Eigen::Ref<Matrix> out) {
-  out.noalias() = in * Weight(layer, out.cols(), in.cols()).transpose();
-  out.rowwise() += Row(layer.bias, out.cols());
-}
 
 // One block on the tokens of some samples; h is (samples, tokens, width).
 void AddBlock(const MixerSizes& sizes, const MixerBlock& block, Eigen::Ref<Matrix> h,
@@ -62,14 +36,15 @@ void AddBlock(const MixerSizes& sizes, const MixerBlock& block, Eigen::Ref<Matri
 void GatherInputs(const MixerArguments& a, int sample, Eigen::Ref<Matrix> joint_inputs,
                   Eigen::Ref<Matrix> root_inputs) {
   const MixerSizes& s = a.sizes;
-  const long features = 3 * s.joints + 6;
-  const Matrix coefficients = ConstMap(a.past_dct, s.past, s.past) *
-                              ConstMap(a.past + sample * s.past * features, s.past, features);
+  const long features = 3 * s.joints + 6, still_features = 6 * s.joints + 3;
+  const float* past = a.inputs + sample * (s.past * features + still_features);
+  const float* still = past + s.past * features;
+  const Matrix coefficients =
+      ConstMap(a.past_dct, s.past, s.past) * ConstMap(past, s.past, features);
   for (int frame = 0; frame < s.past; ++frame) {
     joint_inputs.middleCols(3 * frame, 3) = ConstMap(coefficients.row(frame).data(), s.joints, 3);
     root_inputs.middleCols(6 * frame, 6) = coefficients.row(frame).tail(6);
   }
-  const float* still = a.still + sample * (6L * s.joints + 3);
   joint_inputs.rightCols(6) = ConstMap(still, s.joints, 6);
   root_inputs.rightCols(3) = Row(still + 6 * s.joints, 3);
 }
@@ -116,7 +91,7 @@ void MixerKernel(const MixerArguments& a) {
         Eigen::Map<Matrix>(out.row(frame).data(), s.joints, 3) = turns.middleCols(3 * frame, 3);
         out.row(frame).tail(6) = all_paths.row(i).segment(6 * frame, 6);
       }
-      Eigen::Map<Matrix>(a.future + (first + i) * s.future * features, s.future, features)
+      Eigen::Map<Matrix>(a.outputs + (first + i) * s.future * features, s.future, features)
           .noalias() = ConstMap(a.future_dct, s.future, s.future).transpose() * out;
     }
   }

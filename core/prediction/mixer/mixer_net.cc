@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/prediction/tensors/dct.h"
+#include "core/prediction/tensors/dropout.h"
 #include "core/prediction/tensors/rotation_tensors.h"
 
 namespace poise::prediction {
@@ -66,6 +67,19 @@ void MixerNet::Build() {
   silent(root_out_);
 }
 
+// Of all samples at once: few large products instead of many small ones.
+Tensor MixerNet::MixJoints(Block& block, const Tensor& h) {
+  const int64_t batch = h.size(0), tokens = h.size(1), groups = config_.groups;
+  const Tensor grouped = block.joint_norm(h)
+                             .view({batch, tokens, groups, -1})
+                             .permute({2, 1, 0, 3})
+                             .reshape({groups, tokens, -1});
+  return torch::bmm(block.joints, grouped)
+      .view({groups, tokens, batch, -1})
+      .permute({2, 1, 0, 3})
+      .reshape({batch, tokens, -1});
+}
+
 Tensor MixerNet::Forward(const Tensor& past, const Tensor& still) {
   const int64_t joints = joints_.size(0), future = config_.future_frames;
   const Tensor x = torch::matmul(past_dct_, past / scale_);
@@ -77,11 +91,8 @@ Tensor MixerNet::Forward(const Tensor& past, const Tensor& still) {
       torch::cat({joint_in_(torch::cat({motion.flatten(2), pose}, 2)), root_in_(root).unsqueeze(1)},
                  1) +
       names_;
-  const int64_t shared = config_.width / config_.groups;
   for (Block& block : blocks_) {
-    const Tensor groups =
-        block.joint_norm(h).unflatten(2, {config_.groups, shared}).transpose(1, 2);
-    h = h + Drop(torch::matmul(block.joints, groups).transpose(1, 2).flatten(2));
+    h = h + Drop(MixJoints(block, h));
     h = h + Drop(block.down(torch::silu(block.up(block.within_norm(h)))));
   }
   h = out_norm_(h);
@@ -119,6 +130,8 @@ Tensor MixerNet::Turned(const PoseTensors& windows, const Tensor& changes) const
   const Tensor turns = changes.slice(2, 0, 3 * joints_.size(0)).unflatten(2, {joints_.size(0), 3});
   return Multiply(last, ExpMap(turns));
 }
+
+Tensor MixerNet::Drop(const Tensor& x) const { return Dropout(x, config_.dropout, is_training()); }
 
 void MixerNet::Fit(const PoseTensors& windows) {
   const torch::NoGradGuard no_gradient;

@@ -39,12 +39,11 @@ class MixerNet : public PredictorNet {
     torch::nn::Linear up = nullptr, down = nullptr;
   };
   void Build();
+  torch::Tensor MixJoints(Block& block, const torch::Tensor& h);
   torch::Tensor Changes(const PoseTensors& windows) const;  // (batch, frames, features)
   torch::Tensor Still(const PoseTensors& windows) const;
   torch::Tensor Turned(const PoseTensors& windows, const torch::Tensor& changes) const;
-  torch::Tensor Drop(const torch::Tensor& x) const {
-    return torch::dropout(x, config_.dropout, is_training());
-  }
+  torch::Tensor Drop(const torch::Tensor& x) const;
 
   const MixerConfig config_;
   const EulerMeasure measure_;

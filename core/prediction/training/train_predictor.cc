@@ -12,6 +12,9 @@
 #include "core/prediction/gcn/gcn_net.h"
 #include "core/prediction/mixer/mixer_net.h"
 #include "core/prediction/network_body.h"
+#include "core/prediction/potr/potr_net.h"
+#include "core/prediction/rnn/rnn_net.h"
+#include "core/prediction/simlpe/simlpe_net.h"
 #include "core/prediction/tensors/ensemble_net.h"
 #include "core/prediction/training/training_clips.h"
 
@@ -107,6 +110,9 @@ double ValidationError(PredictorNet& net, const PoseWindows& windows, const Eule
 std::shared_ptr<PredictorNet> MakeMember(const PredictorTraining& config, const NetworkBody& body,
                                          const EulerMeasure& measure) {
   if (config.family == "gcn") return std::make_shared<GcnNet>(config.gcn, body, measure);
+  if (config.family == "rnn") return std::make_shared<RnnNet>(config.rnn, body, measure);
+  if (config.family == "potr") return std::make_shared<PotrNet>(config.potr, body, measure);
+  if (config.family == "simlpe") return std::make_shared<SimlpeNet>(config.simlpe, body, measure);
   return std::make_shared<MixerNet>(config.mixer, body, measure);
 }
 
@@ -143,7 +149,8 @@ StatusOr<PredictorResult> TrainPredictor(const PredictorTask& task, const base::
   const motion::BenchmarkClips& clips = task.clips;
   PredictorTraining config = task.config;
   POISE_RETURN_IF_ERROR(config.Validate());
-  const int window = config.past_frames() + config.future_frames();
+  const auto [past_frames, future_frames] = config.frames();
+  const int window = past_frames + future_frames;
   POISE_ASSIGN_OR_RETURN(
       const TrainingClips split,
       SplitForTraining(clips,
@@ -154,7 +161,7 @@ StatusOr<PredictorResult> TrainPredictor(const PredictorTask& task, const base::
                         .drop_first_frame = clips.sense == motion::RotationSense::kRowVectors}));
   const NetworkBody body = NetworkBody::Of(clips);
   const EulerMeasure measure = MeasureOf(clips, body);
-  const int spare = std::max(0, config.future_frames() - config.least_future_frames);
+  const int spare = std::max(0, future_frames - config.least_future_frames);
   const TrainingWindows train(split, window, spare, config.balanced);
   PoseWindows validation(window);
   for (const motion::Clip& clip : split.validation) {

@@ -9,6 +9,9 @@
 #include "core/learning/nn/trainer_config.h"
 #include "core/prediction/gcn/gcn_config.h"
 #include "core/prediction/mixer/mixer_config.h"
+#include "core/prediction/potr/potr_config.h"
+#include "core/prediction/rnn/rnn_config.h"
+#include "core/prediction/simlpe/simlpe_config.h"
 
 namespace poise::prediction {
 
@@ -19,6 +22,9 @@ struct PredictorTraining {
   int members = 4;               ///< [1 to 64] networks of which the mean is the answer
   MixerConfig mixer;
   GcnConfig gcn;
+  RnnConfig rnn;
+  PotrConfig potr;
+  SimlpeConfig simlpe;
   learning::TrainerConfig trainer{.steps = 8000, .batch_size = 64, .validate_every = 500};
   learning::OptimizerConfig optimizer{.type = "adamw",
                                       .learning_rate = 1e-3,
@@ -35,12 +41,18 @@ struct PredictorTraining {
   bool mirror = true;    ///< learn from the mirror image of each sequence too
   bool speeds = true;    ///< and from each slower and faster by up to a fifth
 
-  /// "recommended"; "gcn": LTD as published, on CMU (reference sec. 4.2), its rate multiplied by
-  /// 0.96 every second epoch of 17,000 windows. Errors: kInvalidArgument UNKNOWN_PRESET.
+  /// By PresetNames. For CMU at 60 Hz: "recommended"; as published "gcn" (LTD), "rnn" (Martinez et
+  /// al.), "potr", "simlpe" (reference sec. 4). For HDM05 at 30 Hz, 12 frames in and 12 out:
+  /// "recommended-hdm05"; as MotionAug has them "rnn-hdm05", "gcn-hdm05", and "potr-hdm05".
+  /// Errors: kInvalidArgument UNKNOWN_PRESET.
   static StatusOr<PredictorTraining> FromPreset(std::string_view name);
+  static std::vector<std::string> PresetNames();
+
   /// Of the chosen family.
-  int past_frames() const { return family == "gcn" ? gcn.past_frames : mixer.past_frames; }
-  int future_frames() const { return family == "gcn" ? gcn.future_frames : mixer.future_frames; }
+  struct Frames {
+    int past = 0, future = 0;
+  };
+  Frames frames() const;
 
   std::vector<base::Field> Fields();
   Status Validate();

@@ -44,6 +44,11 @@ TEST(GcnTest, PublishedSizesHaveThePublishedNumbersOfParameters) {
   EXPECT_EQ(Parameters(GcnNet(GcnConfig(), body, measure)), 2'522'915);
   measure.counts.slice(0, 48).fill_(0);
   EXPECT_EQ(Parameters(GcnNet({.past_frames = 10, .future_frames = 10}, body, measure)), 2'263'828);
+  body.joints.assign(15, 1);  // and the root: MotionAug
+  measure.counts = torch::ones({45});
+  const GcnConfig motionaug{
+      .past_frames = 12, .future_frames = 12, .coefficients = 20, .root = true, .moving = false};
+  EXPECT_EQ(Parameters(GcnNet(motionaug, body, measure)), 2'309'950);
 }
 
 TEST(GcnTest, DctIsThatOfTheReference) {

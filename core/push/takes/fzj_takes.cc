@@ -185,12 +185,16 @@ std::vector<const PushTake*> TakesOf(const std::vector<PushTake>& takes, Split s
   return chosen;
 }
 
-TrainingTakes SplitTraining(const std::vector<PushTake>& takes) {
+TrainingTakes SplitTraining(const std::vector<PushTake>& takes, int fold) {
+  const auto set_of = [](const PushTake& take) { return take.group + take.session; };
+  const std::vector<const PushTake*> all = TakesOf(takes, Split::kTrain);
+  std::map<std::string, int> sizes, seen;  // of each set: training takes, and those so far
+  for (const PushTake* take : all) ++sizes[set_of(*take)];
   TrainingTakes split;
-  std::map<std::string, int> seen;  // training takes so far, by subject and session or by group
-  for (const PushTake* take : TakesOf(takes, Split::kTrain)) {
-    const int place = seen[take->group + take->session]++;
-    const bool chosen = take->multi ? place % 6 == 2 : place == 1;
+  for (const PushTake* take : all) {
+    const int place = seen[set_of(*take)]++;
+    const bool chosen =
+        take->multi ? place % 6 == (2 + fold) % 6 : place == (1 + fold) % sizes[set_of(*take)];
     (chosen ? split.validation : split.train).push_back(take);
   }
   return split;

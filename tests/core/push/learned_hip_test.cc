@@ -54,10 +54,12 @@ TEST(LearnedHipTest, ForecastsAreTheTrainedNetworksToAMillionth) {
   const auto model = HipModel::Read(file, "hip.0.", config);
   ASSERT_TRUE(model.ok()) << model.status();
   HipStates states = HipStates::Standing(4, config.hidden);
-  const MatrixXf place = ToMatrix(batch.place[0]), context = ToMatrix(batch.context[0]);
+  HipInfluence influence = HipInfluence::None(4);
+  influence.place = ToMatrix(batch.place[0]);
+  influence.context = ToMatrix(batch.context[0]);
   for (int64_t frame = 0; frame + 1 < kFrames; ++frame) {
-    const MatrixXf push = ToMatrix(batch.push[0].select(1, frame)) / static_cast<float>(kPushScale);
-    model->Step(place, push, context, PairsWithin(place + states.hip, config.reach_m), states);
+    influence.push = ToMatrix(batch.push[0].select(1, frame)) / static_cast<float>(kPushScale);
+    model->Step(influence, PairsWithin(influence.place + states.hip, config.reach_m), states);
     const MatrixXf hip = ToMatrix(expected.hip[0].select(1, frame + 1));
     const MatrixXf lean = ToMatrix(expected.lean[0].select(1, frame + 1));
     ASSERT_LT((states.hip - hip).cwiseAbs().maxCoeff(), 2e-6) << frame;
@@ -130,12 +132,14 @@ TEST(LearnedHipTest, AFewStepsOnOneTakeBringItsHipNearer) {
   const TrainingTakes takes{{&take}, {&take}};
   base::RunContext context;
   context.seed = 1;
-  const auto trained =
-      TrainHip(takes, Protocol::kB, {},
-               {.steps = 60, .batch_size = 1, .mirror = false, .validate_every = 20}, context);
+  const auto trained = TrainHip(takes, Protocol::kB, {},
+                                {.network = {.steps = 60, .batch_size = 1, .validate_every = 20},
+                                 .still_share = 0,
+                                 .mirror = false},
+                                context);
   ASSERT_TRUE(trained.ok()) << trained.status();
   base::Random random(1);
-  const TakeBatch batch = MakeBatch(takes.train, Protocol::kB, false, random);
+  const TakeBatch batch = MakeBatch(takes.train, Protocol::kB, {}, random);
   const double standing = batch.hip.square().sum(-1).sqrt().mean().item<double>();
   EXPECT_LT(trained->report.best_validation, 0.5 * standing);
 }
@@ -145,7 +149,7 @@ TEST(LearnedHipTest, AMirroredTakeIsTheSameTakeFromTheOtherSide) {
   const PushTake& take = testing::TakeNamed("group_1", 0);
   const std::vector<const PushTake*> takes(8, &take);
   base::Random random(4);
-  const TakeBatch batch = MakeBatch(takes, Protocol::kA, true, random);
+  const TakeBatch batch = MakeBatch(takes, Protocol::kA, {.mirror = true}, random);
   const Tensor sides = batch.place.select(1, 1).select(1, 1).sign();
   EXPECT_LT(sides.min().item<double>(), sides.max().item<double>());  // both occur
   const Tensor side = sides.reshape({8, 1, 1});

@@ -131,7 +131,8 @@ std::vector<Command> AddEvaluateCommands(CLI::App& app, const Console& console) 
       ->type_name("N")
       ->capture_default_str();
   AddJsonFlag(*command);
-  return {{command, [options, &console] { return RunSynthesis(*options, console); }}};
+  return {{command, [options, &console] { return RunSynthesis(*options, console); }},
+          AddEvaluatePushCommand(*evaluate, console)};
 }
 
 }  // namespace poise::cli

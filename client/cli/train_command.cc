@@ -6,6 +6,7 @@
 #include "client/cli/commands.h"
 #include "client/cli/jobs/job_options.h"
 #include "client/cli/jobs/job_wait.h"
+#include "client/cli/push_takes.h"
 #include "client/client.h"
 
 namespace poise::cli {
@@ -26,11 +27,19 @@ constexpr char kVaeFooter[] =
     "  poise train vae --data hdm05 --class kick --hold-out tr --name kick-tr --seed 1\n"
     "  poise train vae --data hdm05 --class jog --name jog --preset paper --detach\n"
     "  poise train vae --data hdm05 --class kick --name kick --set trainer.steps=500";
+constexpr char kPushDescription[] =
+    "Train networks that forecast what people do after a push, on recorded takes.\n\n"
+    "The takes are read from the folder of FZJ Push and kept on the server. The published test "
+    "takes are not learned from and choose nothing. Settings: preset recommended, then --set.";
+constexpr char kPushFooter[] =
+    "Examples:\n"
+    "  poise train push --data ~/fzj_push --name push-mine --seed 1\n"
+    "  poise train push --data ~/fzj_push --name push-a --set protocol=A --detach";
 constexpr const char* kModelFile = "model.safetensors";
 
 struct TrainOptions {
   client::ClientOptions connection = client::ClientOptions::FromEnvironment();
-  std::string data, name, action_class, hold_out;
+  std::string data, license, name, action_class, hold_out;
   std::string preset = "recommended";
   std::vector<std::string> assignments;  // of --set
   uint64_t seed = 0;
@@ -38,20 +47,21 @@ struct TrainOptions {
   bool detach = false;
 };
 
-StatusOr<api::CreateJob> Request(const TrainOptions& options, const api::DataSet& data) {
+// What is learned from; `parameters` are those of the kind of job alone.
+StatusOr<api::CreateJob> Request(const TrainOptions& options, const std::string& kind,
+                                 const std::string& artifact, const std::string& license,
+                                 base::Json parameters) {
   api::CreateJob request;
-  request.spec.kind = "train_vae";
+  request.spec.kind = kind;
   request.request_id = options.request_id;
   request.seed = options.seed;
   POISE_ASSIGN_OR_RETURN(const auto settings, ParsePairs(options.assignments, "set"));
-  request.spec.parameters = {{"name", options.name},
-                             {"data_artifact", data.artifact},
-                             {"data", data.name},
-                             {"data_license", data.license},
-                             {"action_class", options.action_class},
-                             {"hold_out", options.hold_out},
-                             {"preset", options.preset},
-                             {"set", settings}};
+  parameters["name"] = options.name;
+  parameters["data_artifact"] = artifact;
+  parameters["data_license"] = license;
+  parameters["preset"] = options.preset;
+  parameters["set"] = settings;
+  request.spec.parameters = std::move(parameters);
   return request;
 }
 
@@ -63,18 +73,16 @@ StatusOr<std::string> ModelArtifact(const api::Job& job) {
                         fmt::format("jobs/{} has no {}", job.id, kModelFile));
 }
 
-Status RunVae(const TrainOptions& options, const Console& console) {
-  JobWait wait({.wait = !options.detach}, console);
-  POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
-  POISE_ASSIGN_OR_RETURN(const api::DataSet data, client->GetDataSet(options.data));
-  POISE_ASSIGN_OR_RETURN(const api::CreateJob request, Request(options, data));
-  POISE_ASSIGN_OR_RETURN(api::Job job, client->CreateJob(request));
-  if (options.detach) return wait.Answer(*client, std::move(job));
-  POISE_ASSIGN_OR_RETURN(job, wait.End(*client, std::move(job)));
+// Makes the job and shows what came of it.
+Status Train(const TrainOptions& options, JobWait& wait, client::Client& client,
+             const api::CreateJob& request, const Console& console) {
+  POISE_ASSIGN_OR_RETURN(api::Job job, client.CreateJob(request));
+  if (options.detach) return wait.Answer(client, std::move(job));
+  POISE_ASSIGN_OR_RETURN(job, wait.End(client, std::move(job)));
   if (job.state != api::JobState::kSucceeded) return JobOutcome(job);
   POISE_ASSIGN_OR_RETURN(const std::string artifact, ModelArtifact(job));
   // The server has done so; the answer is which version it became.
-  POISE_ASSIGN_OR_RETURN(const api::Model model, client->ImportModel(options.name, artifact));
+  POISE_ASSIGN_OR_RETURN(const api::Model model, client.ImportModel(options.name, artifact));
   if (console.json()) {
     console.PrintJson({{"model", model.name},
                        {"version", model.version},
@@ -90,18 +98,33 @@ Status RunVae(const TrainOptions& options, const Console& console) {
   return absl::OkStatus();
 }
 
-void AddVaeFlags(CLI::App& command, TrainOptions& options) {
-  command.add_option("--data", options.data, "Data set (poise data list)")
-      ->type_name("NAME")
-      ->required();
+Status RunVae(const TrainOptions& options, const Console& console) {
+  JobWait wait({.wait = !options.detach}, console);
+  POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
+  POISE_ASSIGN_OR_RETURN(const api::DataSet data, client->GetDataSet(options.data));
+  POISE_ASSIGN_OR_RETURN(const api::CreateJob request,
+                         Request(options, "train_vae", data.artifact, data.license,
+                                 {{"data", data.name},
+                                  {"action_class", options.action_class},
+                                  {"hold_out", options.hold_out}}));
+  return Train(options, wait, *client, request, console);
+}
+
+Status RunPush(const TrainOptions& options, const Console& console) {
+  JobWait wait({.wait = !options.detach}, console);
+  POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
+  POISE_ASSIGN_OR_RETURN(const std::string artifact, UploadTakes(*client, options.data, console));
+  POISE_ASSIGN_OR_RETURN(
+      const api::CreateJob request,
+      Request(options, "train_push", artifact, options.license, {{"data", "FZJ Push"}}));
+  return Train(options, wait, *client, request, console);
+}
+
+void AddTrainingFlags(CLI::App& command, TrainOptions& options) {
   command.add_option("--name", options.name, "Name of the model; this is its next version")
       ->type_name("NAME")
       ->required();
-  command.add_option("--class", options.action_class, "Class of the clips: kick, jog, ...")
-      ->type_name("CLASS");
-  command.add_option("--hold-out", options.hold_out, "Actor who is not learned from")
-      ->type_name("ACTOR");
-  command.add_option("--preset", options.preset, "recommended or paper")
+  command.add_option("--preset", options.preset, "Named settings")
       ->type_name("NAME")
       ->capture_default_str();
   command.add_option("--set", options.assignments, "A setting; repeatable")
@@ -115,17 +138,40 @@ void AddVaeFlags(CLI::App& command, TrainOptions& options) {
   command.add_flag("--detach", options.detach, "Print the job and do not wait");
 }
 
+Command AddTrainVaeCommand(CLI::App& train, const Console& console) {
+  auto options = std::make_shared<TrainOptions>();
+  CLI::App& command = *train.add_subcommand("vae", kVaeDescription);
+  command.footer(kVaeFooter);
+  command.add_option("--data", options->data, "Data set (poise data list)")
+      ->type_name("NAME")
+      ->required();
+  command.add_option("--class", options->action_class, "Class of the clips: kick, jog, ...")
+      ->type_name("CLASS");
+  command.add_option("--hold-out", options->hold_out, "Actor who is not learned from")
+      ->type_name("ACTOR");
+  AddTrainingFlags(command, *options);
+  AddConnectionFlags(command, options->connection);
+  return {&command, [options, &console] { return RunVae(*options, console); }};
+}
+
+Command AddTrainPushCommand(CLI::App& train, const Console& console) {
+  auto options = std::make_shared<TrainOptions>();
+  CLI::App& command = *train.add_subcommand("push", kPushDescription);
+  command.footer(kPushFooter);
+  command.add_option("--data", options->data, "Folder of FZJ Push")->type_name("DIR")->required();
+  command.add_option("--license", options->license, "Of the data, for the model's card")
+      ->type_name("TEXT");
+  AddTrainingFlags(command, *options);
+  AddConnectionFlags(command, options->connection);
+  return {&command, [options, &console] { return RunPush(*options, console); }};
+}
+
 }  // namespace
 
-Command AddTrainCommand(CLI::App& app, const Console& console) {
+std::vector<Command> AddTrainCommands(CLI::App& app, const Console& console) {
   CLI::App* train = app.add_subcommand("train", kDescription);
   train->footer("Example:\n  poise train vae --data hdm05 --class kick --name kick");
-  auto options = std::make_shared<TrainOptions>();
-  CLI::App* vae = train->add_subcommand("vae", kVaeDescription);
-  vae->footer(kVaeFooter);
-  AddVaeFlags(*vae, *options);
-  AddConnectionFlags(*vae, options->connection);
-  return {vae, [options, &console] { return RunVae(*options, console); }};
+  return {AddTrainVaeCommand(*train, console), AddTrainPushCommand(*train, console)};
 }
 
 }  // namespace poise::cli

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include "core/engine/correct_runner.h"
+#include "core/engine/evaluate_push_runner.h"
+#include "core/pipeline/push_learning_spec.h"
 #include "core/pipeline/train_vae_spec.h"
 #include "core/runtime/jobs/selftest_config.h"
 #include "core/runtime/jobs/selftest_runner.h"
@@ -16,6 +18,10 @@ Status ValidateTrainVae(const base::Json& parameters) {
   return pipeline::TrainVaeSpec::FromParameters(parameters).status();
 }
 
+Status ValidateTrainPush(const base::Json& parameters) {
+  return pipeline::TrainPushSpec::FromParameters(parameters).status();
+}
+
 }  // namespace
 
 const std::vector<Flow>& FlowTable() {
@@ -26,6 +32,10 @@ const std::vector<Flow>& FlowTable() {
        MakeCorrectRunner, CorrectNeedsTorch},
       {"train_vae", "a variational autoencoder of one class's motions", ValidateTrainVae, nullptr,
        nullptr, /*trains=*/true},
+      {"train_push", "networks that forecast what people do after a push", ValidateTrainPush,
+       nullptr, nullptr, /*trains=*/true},
+      {"evaluate_push", "scores of push forecasts on recorded takes", ValidateEvaluatePush,
+       MakeEvaluatePushRunner},
   };
   return flows;
 }

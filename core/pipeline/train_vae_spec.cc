@@ -1,13 +1,10 @@
 #include "core/pipeline/train_vae_spec.h"
 
-#include <utility>
-
 #include "core/api/model_card.h"
+#include "core/pipeline/settings_of_spec.h"
 
 namespace poise::pipeline {
 namespace {
-
-constexpr const char* kOverrides = "set";
 
 std::vector<base::Field> Fields(TrainVaeSpec& spec) {
   return {base::Text("name", &spec.name),
@@ -21,17 +18,7 @@ std::vector<base::Field> Fields(TrainVaeSpec& spec) {
 
 StatusOr<TrainVaeSpec> Parse(base::Json parameters) {
   TrainVaeSpec spec;
-  if (parameters.is_object() && parameters.contains(kOverrides)) {
-    const base::Json overrides = parameters[kOverrides];
-    parameters.erase(kOverrides);
-    if (!overrides.is_object()) {
-      return base::InvalidArgument("MALFORMED_CONFIG_VALUE", kOverrides,
-                                   "'set' expects an object of settings");
-    }
-    for (const auto& [key, value] : overrides.items()) {
-      spec.overrides[key] = value.is_string() ? value.get<std::string>() : value.dump();
-    }
-  }
+  POISE_ASSIGN_OR_RETURN(spec.overrides, TakeSettings(parameters));
   POISE_RETURN_IF_ERROR(base::FieldsFromJson(parameters, Fields(spec)));
   if (!spec.name.empty()) {
     POISE_RETURN_IF_ERROR(api::CheckResourceName(spec.name, "BAD_MODEL_NAME"));

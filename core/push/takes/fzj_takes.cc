@@ -23,7 +23,7 @@ Status Malformed(const std::string& what, const std::string& problem) {
 }
 
 Status CheckBody(const TakePerson& person) {
-  const motion::Skeleton& skeleton = *person.clip.skeleton();
+  const motion::Skeleton& skeleton = *person.clip->skeleton();
   if (skeleton.num_joints() != kBodyJoints) {
     return Malformed(person.file, fmt::format("the skeleton has {} joints, expected {}",
                                               skeleton.num_joints(), kBodyJoints));
@@ -51,11 +51,11 @@ StatusOr<TakePerson> ReadPerson(const fs::path& folder, const std::string& file,
                     .clip = std::move(read.clip),
                     .joints = {}};
   POISE_RETURN_IF_ERROR(CheckBody(person));
-  if (person.clip.num_frames() != frames) {
-    return Malformed(file,
-                     fmt::format("{} frames, the table says {}", person.clip.num_frames(), frames));
+  if (person.clip->num_frames() != frames) {
+    return Malformed(
+        file, fmt::format("{} frames, the table says {}", person.clip->num_frames(), frames));
   }
-  person.joints = motion::ForwardKinematics(person.clip).positions;
+  person.joints = motion::ForwardKinematics(*person.clip).positions;
   for (Vec3& joint : person.joints) joint = GroundFromWorld(joint);
   return person;
 }

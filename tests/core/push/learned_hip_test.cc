@@ -8,6 +8,7 @@
 #include "core/push/training/hip_net.h"
 #include "core/push/training/hip_training.h"
 #include "core/push/training/pose_training.h"
+#include "core/push/training/train_push.h"
 #include "tests/core/push/fzj_data.h"
 
 namespace poise::push {
@@ -158,6 +159,43 @@ TEST(LearnedHipTest, AMirroredTakeIsTheSameTakeFromTheOtherSide) {
                 .max()
                 .item<double>(),
             1e-6);
+}
+
+TEST(TrainPushTest, AnInterruptedTrainingEndsWithTheSameWeights) {
+  POISE_REQUIRE_DATA("fzj_push");
+  std::vector<PushTake> takes;
+  for (const PushTake& take : testing::SingleTakes()) {
+    if (take.group == "X05") takes.push_back(take);
+  }
+  PushTraining config;
+  config.hip_members = 2;
+  config.pose_members = 1;
+  config.hip = {.hidden = 8, .message = 4, .message_hidden = 4};
+  config.pose = {.hidden = 8};
+  config.hip_training.network = {.steps = 4, .batch_size = 2, .validate_every = 2};
+  config.pose_training.network = {.steps = 4, .batch_size = 2, .validate_every = 2};
+  base::RunContext context;
+  context.seed = 3;
+  const PushTask task{.takes = takes, .config = config};
+  const auto whole = TrainPush(task, context);
+  ASSERT_TRUE(whole.ok()) << whole.status();
+  // Stopped in the second member: it hands over a checkpoint.
+  std::string checkpoint;
+  base::RunContext stopped = context;
+  stopped.progress = [&](const base::Progress& progress) {
+    if (progress.step >= 6) stopped.cancellation.Cancel();
+  };
+  const learning::CheckpointSink sink{absl::ZeroDuration(), [&](std::string_view bytes, int64_t) {
+                                        checkpoint = bytes;
+                                        return absl::OkStatus();
+                                      }};
+  EXPECT_TRUE(absl::IsCancelled(TrainPush(task, stopped, {}, sink).status()));
+  ASSERT_FALSE(checkpoint.empty());
+  const auto resumed = TrainPush(task, context, checkpoint);
+  ASSERT_TRUE(resumed.ok()) << resumed.status();
+  EXPECT_EQ(resumed->model.card.weights_sha256, whole->model.card.weights_sha256);
+  EXPECT_EQ(resumed->model.card.scores, whole->model.card.scores);
+  EXPECT_EQ(base::ErrorReason(TrainPush(task, context, "nonsense").status()), "CORRUPT_CHECKPOINT");
 }
 
 }  // namespace

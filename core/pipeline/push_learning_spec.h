@@ -1,0 +1,44 @@
+#ifndef POISE_CORE_PIPELINE_PUSH_LEARNING_SPEC_H_
+#define POISE_CORE_PIPELINE_PUSH_LEARNING_SPEC_H_
+
+#include <string>
+
+#include "core/base/config_fields.h"
+#include "core/base/json.h"
+#include "core/base/status.h"
+#include "core/push/training/push_training_config.h"
+
+namespace poise::pipeline {
+
+/// The parameters of a job of kind `train_push`.
+struct TrainPushSpec {
+  std::string name;           ///< of the model; empty: none is registered
+  std::string data_artifact;  ///< "artifacts/<sha256>": a take file (push/takes/take_file.h)
+  std::string data;           ///< its name, for the card
+  std::string data_license;
+  std::string preset = "recommended";
+  base::Overrides overrides;  ///< "set": settings of PushTraining by name
+
+  /// Errors: kInvalidArgument with a field below "spec.parameters": UNKNOWN_CONFIG_KEY,
+  /// MALFORMED_CONFIG_VALUE, BAD_MODEL_NAME, MISSING_DATA, UNKNOWN_PRESET,
+  /// CONFIG_VALUE_OUT_OF_RANGE.
+  static StatusOr<TrainPushSpec> FromParameters(const base::Json& parameters);
+
+  /// The preset with the overrides.
+  StatusOr<push::PushTraining> Config() const;
+};
+
+/// The parameters of a job of kind `evaluate_push`.
+struct EvaluatePushSpec {
+  std::string data_artifact;   ///< a take file; its test takes are scored
+  std::string model_artifact;  ///< a packed model; empty: only what needs no learning
+  std::string model;           ///< its name, for the results
+
+  /// Errors: kInvalidArgument with a field below "spec.parameters": UNKNOWN_CONFIG_KEY,
+  /// MALFORMED_CONFIG_VALUE, MISSING_DATA.
+  static StatusOr<EvaluatePushSpec> FromParameters(const base::Json& parameters);
+};
+
+}  // namespace poise::pipeline
+
+#endif  // POISE_CORE_PIPELINE_PUSH_LEARNING_SPEC_H_

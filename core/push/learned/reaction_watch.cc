@@ -38,9 +38,11 @@ ReactionWatch::ReactionWatch(const PushScene& scene)
       activity_(Eigen::VectorXf::Zero(scene.people.size())),
       headings_(FacingX(static_cast<int>(scene.people.size()))) {}
 
-void ReactionWatch::Begin(int person, int frame, const Eigen::RowVector2f& heading, bool alone) {
+void ReactionWatch::Begin(int person, int frame, int push, const Eigen::RowVector2f& heading,
+                          bool alone) {
   Person& begun = people_[person];
   begun.stirred = frame;
+  begun.push = push;
   begun.has_moved = false;
   activity_[person] = 1;
   if (begun.takes_part) return;
@@ -62,6 +64,7 @@ void ReactionWatch::SpreadPushes(int frame, const FloorVectors& places,
     sources.push_back({push.person, push.force_n.normalized().cast<float>().transpose()});
   }
   if (sources.empty()) return;
+  ++pushes_;
   const int people = static_cast<int>(people_.size());
   Groups groups(people, pairs);
   std::vector<int> sizes(people, 0);
@@ -77,7 +80,7 @@ void ReactionWatch::SpreadPushes(int frame, const FloorVectors& places,
         nearest = &source;
       }
     }
-    if (nearest != nullptr) Begin(i, frame, nearest->heading, sizes[groups.Find(i)] == 1);
+    if (nearest != nullptr) Begin(i, frame, pushes_, nearest->heading, sizes[groups.Find(i)] == 1);
   }
 }
 
@@ -86,8 +89,9 @@ void ReactionWatch::SpreadMovement(int frame, const FloorVectors& velocities,
   const auto spread = [&](int from, int to) {
     if (!people_[from].takes_part || activity_[from] < 1) return;
     if (velocities.row(from).norm() < kMoving) return;
-    if (!people_[to].takes_part) {
-      Begin(to, frame, headings_.row(from), false);
+    const bool rests = !people_[to].takes_part && !people_[to].has_moved;
+    if (people_[to].push < people_[from].push || rests) {
+      Begin(to, frame, people_[from].push, headings_.row(from), false);
     } else if (!people_[to].has_moved) {
       people_[to].stirred = frame;
     }

@@ -14,9 +14,11 @@ namespace poise::push {
 /// after; before and after everybody stands still exactly.
 ///
 /// A person begins when it is pushed, when at that moment it stands in a chain of people within
-/// reach of each other that ends at who is pushed, or when somebody who moves comes within reach.
-/// Its heading is then the direction of the push on whom it is nearest to, or that of who came.
-/// It comes to rest a while after its own first movement, or after the last movement within reach.
+/// reach of each other that ends at who is pushed, or when somebody comes within reach who moves
+/// because of a push that it has not moved for yet (else two people would wake each other for
+/// ever). Its heading is then the direction of the push on whom it is nearest to, or that of who
+/// came. It comes to rest a while after its own first movement, or after the last movement within
+/// reach.
 class ReactionWatch {
  public:
   /// `scene` outlives the watch.
@@ -40,9 +42,10 @@ class ReactionWatch {
   struct Person {
     bool takes_part = false, has_moved = false, alone = true;
     int stirred = 0;  // frame of the last reason to move
+    int push = -1;    // that it began for last, in the order of their beginnings
   };
 
-  void Begin(int person, int frame, const Eigen::RowVector2f& heading, bool alone);
+  void Begin(int person, int frame, int push, const Eigen::RowVector2f& heading, bool alone);
   void SpreadPushes(int frame, const FloorVectors& places, const std::vector<Pair>& pairs);
   void SpreadMovement(int frame, const FloorVectors& velocities, const std::vector<Pair>& pairs);
   void ComeToRest(int frame, const FloorVectors& velocities);
@@ -52,6 +55,7 @@ class ReactionWatch {
   std::vector<int> beginners_;
   Eigen::VectorXf activity_;
   Headings headings_;
+  int pushes_ = 0;  // moments in which pushes began
 };
 
 }  // namespace poise::push

@@ -215,7 +215,7 @@ TEST(LearnedForecasterTest, AFarGroupChangesNothing) {
   more.people.push_back(PersonAt(0, 30));
   more.pushes.push_back({.person = 3, .first_frame = 5, .frames = 8, .force_n = {0, -150}});
   const auto alone = Roll(scene, 60), beside = Roll(more, 60);
-  EXPECT_EQ((alone.back().hips - beside.back().hips.topRows(3)).abs().maxCoeff(), 0);
+  EXPECT_LT((alone.back().hips - beside.back().hips.topRows(3)).abs().maxCoeff(), 1e-5);
   EXPECT_GT(std::abs(beside.back().hips(3, 1) - 30), 0.05);
 }
 

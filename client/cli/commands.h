@@ -35,6 +35,8 @@ std::vector<Command> AddDataCommands(CLI::App& app, const Console& console);
 std::vector<Command> AddTrainCommands(CLI::App& app, const Console& console);
 /// How good what was made is (evaluate_command.cc).
 std::vector<Command> AddEvaluateCommands(CLI::App& app, const Console& console);
+/// One of them (evaluate_push_command.cc).
+Command AddEvaluatePushCommand(CLI::App& evaluate, const Console& console);
 /// Its sub-command `predictor` (evaluate_predictor_command.cc).
 Command AddEvaluatePredictorCommand(CLI::App& evaluate, const Console& console);
 /// For operators (admin_command.cc).

@@ -133,7 +133,8 @@ std::vector<Command> AddEvaluateCommands(CLI::App& app, const Console& console) 
       ->capture_default_str();
   AddJsonFlag(*command);
   return {{command, [options, &console] { return RunSynthesis(*options, console); }},
-          AddEvaluatePredictorCommand(*evaluate, console)};
+          AddEvaluatePredictorCommand(*evaluate, console),
+          AddEvaluatePushCommand(*evaluate, console)};
 }
 
 }  // namespace poise::cli

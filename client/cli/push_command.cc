@@ -167,7 +167,9 @@ Command AddPushCommand(CLI::App& app, const Console& console) {
       ->capture_default_str();
   command->add_option("--duration", options->duration_s, "Of the forecast; else the scene's or 2 s")
       ->type_name("SECONDS");
-  command->add_option("--model", options->model, "Which model forecasts")->type_name("NAME");
+  command
+      ->add_option("--model", options->model, "statue or a trained model; else the one that ships")
+      ->type_name("NAME");
   command->add_option("--set", options->assignments, "A hyper-parameter; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);

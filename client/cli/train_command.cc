@@ -7,6 +7,7 @@
 #include "client/cli/commands.h"
 #include "client/cli/jobs/job_options.h"
 #include "client/cli/jobs/job_wait.h"
+#include "client/cli/push_takes.h"
 #include "client/client.h"
 
 namespace poise::cli {
@@ -39,12 +40,20 @@ constexpr char kPredictorFooter[] =
     "  poise train predictor --data hdm05 --class kick --hold-out tr --name kick-next\n"
     "  poise train predictor --data cmu --body all --rate 60 --name mine --set trainer.steps=8000\n"
     "  poise predict kick.amc --model kick-next";
+constexpr char kPushDescription[] =
+    "Train networks that forecast what people do after a push, on recorded takes.\n\n"
+    "The takes are read from the folder of FZJ Push and kept on the server. The published test "
+    "takes are not learned from and choose nothing. Settings: preset recommended, then --set.";
+constexpr char kPushFooter[] =
+    "Examples:\n"
+    "  poise train push --data ~/fzj_push --name push-mine --seed 1\n"
+    "  poise train push --data ~/fzj_push --name push-a --set protocol=A --detach";
 constexpr const char* kModelFile = "model.safetensors";
 
 struct TrainOptions {
   client::ClientOptions connection = client::ClientOptions::FromEnvironment();
   std::string kind;  // of the job
-  std::string data, name, action_class, hold_out;
+  std::string data, license, name, action_class, hold_out;
   base::Json more = base::Json::object();  // parameters of this kind alone
   std::string preset = "recommended";
   std::vector<std::string> assignments;  // of --set
@@ -59,14 +68,9 @@ StatusOr<api::CreateJob> Request(const TrainOptions& options, const api::DataSet
   request.request_id = options.request_id;
   request.seed = options.seed;
   POISE_ASSIGN_OR_RETURN(const auto settings, ParsePairs(options.assignments, "set"));
-  request.spec.parameters = {{"name", options.name},
-                             {"data_artifact", data.artifact},
-                             {"data", data.name},
-                             {"data_license", data.license},
-                             {"action_class", options.action_class},
-                             {"hold_out", options.hold_out},
-                             {"preset", options.preset},
-                             {"set", settings}};
+  request.spec.parameters = {{"name", options.name},     {"data_artifact", data.artifact},
+                             {"data", data.name},        {"data_license", data.license},
+                             {"preset", options.preset}, {"set", settings}};
   request.spec.parameters.update(options.more);
   return request;
 }
@@ -79,18 +83,17 @@ StatusOr<std::string> ModelArtifact(const api::Job& job) {
                         fmt::format("jobs/{} has no {}", job.id, kModelFile));
 }
 
-Status RunTraining(const TrainOptions& options, const Console& console) {
-  JobWait wait({.wait = !options.detach}, console);
-  POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
-  POISE_ASSIGN_OR_RETURN(const api::DataSet data, client->GetDataSet(options.data));
+// Makes the job and shows what came of it.
+Status Train(const TrainOptions& options, client::Client& client, const api::DataSet& data,
+             JobWait& wait, const Console& console) {
   POISE_ASSIGN_OR_RETURN(const api::CreateJob request, Request(options, data));
-  POISE_ASSIGN_OR_RETURN(api::Job job, client->CreateJob(request));
-  if (options.detach) return wait.Answer(*client, std::move(job));
-  POISE_ASSIGN_OR_RETURN(job, wait.End(*client, std::move(job)));
+  POISE_ASSIGN_OR_RETURN(api::Job job, client.CreateJob(request));
+  if (options.detach) return wait.Answer(client, std::move(job));
+  POISE_ASSIGN_OR_RETURN(job, wait.End(client, std::move(job)));
   if (job.state != api::JobState::kSucceeded) return wait.Report(job);
   POISE_ASSIGN_OR_RETURN(const std::string artifact, ModelArtifact(job));
   // The server has done so; the answer is which version it became.
-  POISE_ASSIGN_OR_RETURN(const api::Model model, client->ImportModel(options.name, artifact));
+  POISE_ASSIGN_OR_RETURN(const api::Model model, client.ImportModel(options.name, artifact));
   if (console.json()) {
     console.PrintJson({{"model", model.name},
                        {"version", model.version},
@@ -106,17 +109,31 @@ Status RunTraining(const TrainOptions& options, const Console& console) {
   return absl::OkStatus();
 }
 
+// On a registered data set.
+Status TrainOnClips(TrainOptions options, const Console& console) {
+  JobWait wait({.wait = !options.detach}, console);
+  POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
+  POISE_ASSIGN_OR_RETURN(const api::DataSet data, client->GetDataSet(options.data));
+  options.more["action_class"] = options.action_class;
+  options.more["hold_out"] = options.hold_out;
+  return Train(options, *client, data, wait, console);
+}
+
+// On a folder of recordings, which travels as one file.
+Status TrainOnTakes(const TrainOptions& options, const Console& console) {
+  JobWait wait({.wait = !options.detach}, console);
+  POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
+  api::DataSet data;
+  data.name = "FZJ Push";
+  data.license = options.license;
+  POISE_ASSIGN_OR_RETURN(data.artifact, UploadTakes(*client, options.data, console));
+  return Train(options, *client, data, wait, console);
+}
+
 void AddTrainingFlags(CLI::App& command, TrainOptions& options) {
-  command.add_option("--data", options.data, "Data set (poise data list)")
-      ->type_name("NAME")
-      ->required();
   command.add_option("--name", options.name, "Name of the model; this is its next version")
       ->type_name("NAME")
       ->required();
-  command.add_option("--class", options.action_class, "Class of the clips: kick, jog, ...")
-      ->type_name("CLASS");
-  command.add_option("--hold-out", options.hold_out, "Actor who is not learned from")
-      ->type_name("ACTOR");
   command.add_option("--preset", options.preset, "recommended, or as published")
       ->type_name("NAME")
       ->capture_default_str();
@@ -131,14 +148,25 @@ void AddTrainingFlags(CLI::App& command, TrainOptions& options) {
   command.add_flag("--detach", options.detach, "Print the job and do not wait");
 }
 
+void AddClipFlags(CLI::App& command, TrainOptions& options) {
+  command.add_option("--data", options.data, "Data set (poise data list)")
+      ->type_name("NAME")
+      ->required();
+  command.add_option("--class", options.action_class, "Class of the clips: kick, jog, ...")
+      ->type_name("CLASS");
+  command.add_option("--hold-out", options.hold_out, "Actor who is not learned from")
+      ->type_name("ACTOR");
+  AddTrainingFlags(command, options);
+}
+
 Command AddVae(CLI::App& train, const Console& console) {
   auto options = std::make_shared<TrainOptions>();
   options->kind = "train_vae";
   CLI::App* command = train.add_subcommand("vae", kVaeDescription);
   command->footer(kVaeFooter);
-  AddTrainingFlags(*command, *options);
+  AddClipFlags(*command, *options);
   AddConnectionFlags(*command, options->connection);
-  return {command, [options, &console] { return RunTraining(*options, console); }};
+  return {command, [options, &console] { return TrainOnClips(*options, console); }};
 }
 
 Command AddPredictor(CLI::App& train, const Console& console) {
@@ -147,13 +175,26 @@ Command AddPredictor(CLI::App& train, const Console& console) {
   options->kind = "train_predictor";
   CLI::App* command = train.add_subcommand("predictor", kPredictorDescription);
   command->footer(kPredictorFooter);
-  AddTrainingFlags(*command, *options);
+  AddClipFlags(*command, *options);
   AddBenchmarkFormFlags(*command, *form);
   AddConnectionFlags(*command, options->connection);
   return {command, [options, form, &console] {
             options->more = base::FieldsToJson(form->Fields());
-            return RunTraining(*options, console);
+            return TrainOnClips(*options, console);
           }};
+}
+
+Command AddPush(CLI::App& train, const Console& console) {
+  auto options = std::make_shared<TrainOptions>();
+  options->kind = "train_push";
+  CLI::App* command = train.add_subcommand("push", kPushDescription);
+  command->footer(kPushFooter);
+  command->add_option("--data", options->data, "Folder of FZJ Push")->type_name("DIR")->required();
+  command->add_option("--license", options->license, "Of the data, for the model's card")
+      ->type_name("TEXT");
+  AddTrainingFlags(*command, *options);
+  AddConnectionFlags(*command, options->connection);
+  return {command, [options, &console] { return TrainOnTakes(*options, console); }};
 }
 
 }  // namespace
@@ -161,7 +202,7 @@ Command AddPredictor(CLI::App& train, const Console& console) {
 std::vector<Command> AddTrainCommands(CLI::App& app, const Console& console) {
   CLI::App* train = app.add_subcommand("train", kDescription);
   train->footer("Example:\n  poise train vae --data hdm05 --class kick --name kick");
-  return {AddVae(*train, console), AddPredictor(*train, console)};
+  return {AddVae(*train, console), AddPredictor(*train, console), AddPush(*train, console)};
 }
 
 }  // namespace poise::cli

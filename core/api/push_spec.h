@@ -43,7 +43,8 @@ struct PushSpec {
   std::vector<PushPerson> people;
   std::vector<PushForce> pushes;
   double duration_s = 2;
-  std::string model = "statue";
+  /// "statue" or a model of the registry; empty: the model that ships, where the server has it.
+  std::string model;
   base::Overrides overrides;
 
   /// What can be said without the clips. Errors: kInvalidArgument NO_PEOPLE, TOO_MANY_PEOPLE,

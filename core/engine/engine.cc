@@ -43,6 +43,7 @@ Engine::Engine(EngineConfig config, Stores stores, base::Telemetry& telemetry)
       artifacts_(std::move(stores.artifacts)),
       model_registry_(std::move(stores.models)),
       models_(*model_registry_, *artifacts_),
+      pushes_(*model_registry_),
       decoders_(models_, config_.load_decoder),
       data_sets_(std::move(stores.data_sets)),
       jobs_(std::make_unique<JobManager>(JobsConfig(), std::move(stores.jobs), *artifacts_,
@@ -91,6 +92,8 @@ StatusOr<std::unique_ptr<AugmentRun>> Engine::PrepareAugment(api::AugmentSpec sp
 StatusOr<std::unique_ptr<pipeline::PushFlow>> Engine::PreparePush(api::PushSpec spec,
                                                                   const base::RunContext& context) {
   POISE_RETURN_IF_ERROR(spec.Validate());
+  POISE_ASSIGN_OR_RETURN(const serving::ServedForecaster served,
+                         pushes_.Find(spec.model, spec.overrides));
   const ClipCatalog catalog(*artifacts_);
   std::vector<std::optional<pipeline::ResolvedSource>> bodies(spec.people.size());
   for (size_t i = 0; i < spec.people.size(); ++i) {
@@ -103,7 +106,7 @@ StatusOr<std::unique_ptr<pipeline::PushFlow>> Engine::PreparePush(api::PushSpec 
     }
     bodies[i] = std::move(clip->source);
   }
-  return pipeline::PushFlow::Create(spec, std::move(bodies));
+  return pipeline::PushFlow::Create(spec, std::move(bodies), served.model, *served.forecaster);
 }
 
 }  // namespace poise::engine

@@ -19,6 +19,7 @@
 #include "core/engine/job_manager.h"
 #include "core/engine/model_catalog.h"
 #include "core/pipeline/push.h"
+#include "core/runtime/serving/push_catalog.h"
 
 namespace poise::engine {
 
@@ -53,8 +54,8 @@ class Engine {
   Forecaster& forecaster() { return *forecaster_; }
 
   /// Resolves the people's clips and prepares the forecast. The caller runs PushFlow::Next on
-  /// compute(). Errors: those of ClipCatalog::Resolve and PushFlow::Create with the field
-  /// "people[i].body"; kCancelled, kDeadlineExceeded.
+  /// compute(). Errors: those of PushCatalog::Find, of ClipCatalog::Resolve and PushFlow::Create
+  /// with the field "people[i].body"; kCancelled, kDeadlineExceeded.
   StatusOr<std::unique_ptr<pipeline::PushFlow>> PreparePush(api::PushSpec spec,
                                                             const base::RunContext& context);
 
@@ -81,6 +82,7 @@ class Engine {
   std::unique_ptr<artifacts::ArtifactStore> artifacts_;
   std::unique_ptr<artifacts::ModelRegistry> model_registry_;
   ModelCatalog models_;
+  serving::PushCatalog pushes_;
   DecoderCache decoders_;
   std::unique_ptr<artifacts::DataSetRegistry> data_sets_;
   std::unique_ptr<JobManager> jobs_;

@@ -5,7 +5,9 @@
 
 #include "core/engine/correct_runner.h"
 #include "core/engine/evaluate_predictor_runner.h"
+#include "core/engine/evaluate_push_runner.h"
 #include "core/pipeline/predictor_evaluation.h"
+#include "core/pipeline/push_learning_spec.h"
 #include "core/pipeline/train_predictor_spec.h"
 #include "core/pipeline/train_vae_spec.h"
 #include "core/runtime/jobs/selftest_config.h"
@@ -28,6 +30,10 @@ const std::vector<Flow>& FlowTable() {
        jobs::MakeSelftestRunner},
       {"correct", "variants of clips that a simulated body has imitated", ValidateCorrect,
        MakeCorrectRunner, CorrectNeedsTorch},
+      {"train_push", "networks that forecast what people do after a push",
+       Validate<pipeline::TrainPushSpec>, nullptr, nullptr, /*trains=*/true},
+      {"evaluate_push", "scores of push forecasts on recorded takes", ValidateEvaluatePush,
+       MakeEvaluatePushRunner},
       {"train_vae", "a variational autoencoder of one class's motions",
        Validate<pipeline::TrainVaeSpec>, nullptr, nullptr, /*trains=*/true},
       {"train_predictor", "a network that says what comes next in a motion",

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/push/body_joints.h"
-#include "core/push/push_forecaster.h"
 #include "core/push/push_scene.h"
+#include "core/push/restoration/turned_body.h"
 #include "core/push/standing_person.h"
 
 namespace poise::pipeline {
@@ -20,6 +20,7 @@ using motion::Vec3;
 struct Body {
   push::ScenePerson person;
   Clip clip;  // of one frame: where the person stands
+  push::TurnedBody turned;
 };
 
 Clip OneFrame(const Clip& clip, int frame, const Vec3& shift) {
@@ -48,7 +49,9 @@ StatusOr<Body> PlaceBody(const api::PushPerson& person, const Clip& clip,
   scene.hip += ground_shift;
   scene.pendulum.position.head<2>() += ground_shift.head<2>();
   scene.mass_kg = person.mass_kg;
-  return Body{std::move(scene), OneFrame(clip, person.frame, shift)};
+  Clip standing = OneFrame(clip, person.frame, shift);
+  push::TurnedBody turned(standing, roles);
+  return Body{std::move(scene), std::move(standing), std::move(turned)};
 }
 
 StatusOr<std::vector<Body>> PlaceBodies(const api::PushSpec& spec,
@@ -83,12 +86,6 @@ push::ScenePush ToScene(const api::PushForce& force) {
           .height = force.height};
 }
 
-StatusOr<std::unique_ptr<push::PushForecaster>> MakeForecaster(const api::PushSpec& spec) {
-  if (spec.model == "statue") return push::MakeStatueForecaster(spec.overrides);
-  return base::InvalidArgument("UNKNOWN_MODEL", "model",
-                               fmt::format("no push model '{}'; known: statue", spec.model));
-}
-
 template <typename Row>
 std::array<double, 4> ToArray(const Row& row) {
   return {row(0), row(1), row(2), row(3)};
@@ -98,7 +95,7 @@ std::array<double, 4> ToArray(const Row& row) {
 
 class PushFlow::Implementation {
  public:
-  Implementation(const api::PushSpec& spec, std::vector<Body> bodies,
+  Implementation(const api::PushSpec& spec, std::vector<Body> bodies, const std::string& model,
                  const push::PushForecaster& forecaster)
       : bodies_(std::move(bodies)) {
     push::PushScene scene;
@@ -109,7 +106,7 @@ class PushFlow::Implementation {
           {.id = body.person.id, .mass_kg = body.person.mass_kg, .skeleton = body.clip.skeleton()});
     }
     for (const api::PushForce& force : spec.pushes) scene.pushes.push_back(ToScene(force));
-    info_.model = spec.model;
+    info_.model = model;
     info_.frame_rate = push::kFrameRate;
     info_.frames = scene.frames;
     rollout_ = forecaster.Start(scene);
@@ -141,6 +138,10 @@ class PushFlow::Implementation {
         .hip = push::WorldFromGround(hip),
         .interaction_force = ToArray(frame.interaction.row(i)),
         .onset_s = std::nullopt};
+    if (!frame.turns.empty()) {
+      person.root_position = body.turned.RootPosition(frame.turns[i], person.hip);
+      person.rotations = body.turned.Rotations(frame.turns[i]);
+    }
     if (frame.onset_frames[i] >= 0) person.onset_s = frame.onset_frames[i] * push::kFrameTime;
     return person;
   }
@@ -155,12 +156,12 @@ PushFlow::PushFlow(std::unique_ptr<Implementation> implementation)
 PushFlow::~PushFlow() = default;
 
 StatusOr<std::unique_ptr<PushFlow>> PushFlow::Create(
-    const api::PushSpec& spec, std::vector<std::optional<ResolvedSource>> bodies) {
+    const api::PushSpec& spec, std::vector<std::optional<ResolvedSource>> bodies,
+    const std::string& model, const push::PushForecaster& forecaster) {
   POISE_RETURN_IF_ERROR(spec.Validate());
-  POISE_ASSIGN_OR_RETURN(const auto forecaster, MakeForecaster(spec));
   POISE_ASSIGN_OR_RETURN(std::vector<Body> placed, PlaceBodies(spec, bodies));
   return std::unique_ptr<PushFlow>(
-      new PushFlow(std::make_unique<Implementation>(spec, std::move(placed), *forecaster)));
+      new PushFlow(std::make_unique<Implementation>(spec, std::move(placed), model, forecaster)));
 }
 
 const api::PushForecastScene& PushFlow::scene() const { return implementation_->info(); }

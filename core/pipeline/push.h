@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/api/push_forecast.h"
@@ -10,6 +11,7 @@
 #include "core/base/run_context.h"
 #include "core/base/status.h"
 #include "core/pipeline/augment.h"
+#include "core/push/push_forecaster.h"
 
 namespace poise::pipeline {
 
@@ -17,12 +19,13 @@ namespace poise::pipeline {
 /// Threads: one caller at a time.
 class PushFlow {
  public:
-  /// `bodies` has an entry for each person of the spec; empty where the person has no clip.
-  /// Errors: those of PushSpec::Validate; kInvalidArgument UNKNOWN_MODEL, UNKNOWN_CONFIG_KEY and
-  /// the other config errors; with the field "people[i]": FRAME_OUT_OF_RANGE, NOT_STANDING,
-  /// OVERLAPPING_PEOPLE, kFailedPrecondition MISSING_ROLES.
+  /// `bodies` has an entry for each person of the spec; empty where the person has no clip. `model`
+  /// names the forecaster in answers. Errors: those of PushSpec::Validate; with the field
+  /// "people[i]": FRAME_OUT_OF_RANGE, NOT_STANDING, OVERLAPPING_PEOPLE, kFailedPrecondition
+  /// MISSING_ROLES.
   static StatusOr<std::unique_ptr<PushFlow>> Create(
-      const api::PushSpec& spec, std::vector<std::optional<ResolvedSource>> bodies);
+      const api::PushSpec& spec, std::vector<std::optional<ResolvedSource>> bodies,
+      const std::string& model, const push::PushForecaster& forecaster);
   ~PushFlow();
 
   const api::PushForecastScene& scene() const;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/artifacts/model_artifact.h"
 #include "core/base/config_fields.h"
 #include "core/base/status.h"
 #include "core/push/push_scene.h"
@@ -18,6 +19,7 @@ struct PushFrame {
   PendulumArray interaction;      ///< (people, 4) generalised forces between people [N, N m]
   Eigen::ArrayX3d hips;           ///< (people, 3) [m]
   std::vector<int> onset_frames;  ///< (people) of the first movement; -1: not yet
+  std::vector<BodyTurns> turns;   ///< (people) since frame 0; empty: bodies keep their pose
 };
 
 /// A forecast under way. Threads: one caller at a time.
@@ -40,6 +42,17 @@ class PushForecaster {
 /// Pendulums under hand-made balance and contact; bodies keep their pose and move as statues.
 /// Errors: kInvalidArgument, those of base::ApplyOverrides for PhysicsConfig.
 StatusOr<std::unique_ptr<PushForecaster>> MakeStatueForecaster(const base::Overrides& overrides);
+
+/// What the card of a trained push model has as its family.
+inline constexpr const char* kModelFamily = "push";
+
+/// Networks that learned from recorded pushes (core/push/training): hips go as the mean of an
+/// ensemble, and pose networks move bodies. Each person is forecast in a frame along the push
+/// (learned/reaction_watch.h says whose), so place and direction do not matter.
+/// Errors: kFailedPrecondition WRONG_FAMILY; kInvalidArgument MISSING_TENSOR, WRONG_SHAPE; config
+/// errors.
+StatusOr<std::unique_ptr<PushForecaster>> MakeLearnedForecaster(
+    const artifacts::ModelArtifact& model);
 
 }  // namespace poise::push
 

@@ -7,6 +7,7 @@
 
 #include "core/motion/kinematics/forward_kinematics.h"
 #include "core/motion/rest_pose.h"
+#include "core/push/restoration/turned_body.h"
 
 namespace poise::push {
 
@@ -30,12 +31,16 @@ StatusOr<ScenePerson> PersonOf(const motion::Clip& clip, int frame,
                     "least {:.2f} m of somebody who stands",
                     clip.name(), frame, height, least));
   }
-  return ScenePerson{.id = clip.name(), .pendulum = PendulumOf(hip, right, left), .hip = hip};
+  return ScenePerson{.id = clip.name(),
+                     .pendulum = PendulumOf(hip, right, left),
+                     .hip = hip,
+                     .shape = ShapeOf(clip, frame, roles)};
 }
 
 Eigen::Vector2d ForceInFrame(const ScenePush& push, int frame) {
   const int place = frame - push.first_frame;
   if (place < 0 || place >= push.frames) return Eigen::Vector2d::Zero();
+  if (!push.recorded_n.empty()) return push.recorded_n[place];
   // The middle of the frame; the sum over the frames is 1 / sin(pi / (2 n)).
   const double half_step = std::numbers::pi / (2 * push.frames);
   const double weight = std::sin((2 * place + 1) * half_step) * std::sin(half_step) * push.frames;

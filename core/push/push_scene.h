@@ -9,6 +9,7 @@
 #include "core/motion/clip.h"
 #include "core/motion/joint_roles.h"
 #include "core/push/pendulum/pendulum.h"
+#include "core/push/restoration/rigid_fit.h"
 
 /// What a forecast begins with. Everything here is in the ground frame.
 namespace poise::push {
@@ -19,6 +20,7 @@ struct ScenePerson {
   double mass_kg = 0;
   PendulumPose pendulum;
   Vec3 hip = Vec3::Zero();
+  BodyShape shape{};  ///< its joints, for models that move bodies
 };
 
 /// A push: a force at a person's rod during some frames.
@@ -28,6 +30,8 @@ struct ScenePush {
   int frames = 1;                                     ///< [> 0]
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();  ///< mean over its frames
   double height = 1;                                  ///< share of the rod; 1 is the hip
+  /// (frames) [N] when the force of each frame is known; empty: a half sine.
+  std::vector<Eigen::Vector2d> recorded_n = {};
 };
 
 struct PushScene {
@@ -42,8 +46,8 @@ struct PushScene {
 StatusOr<ScenePerson> PersonOf(const motion::Clip& clip, int frame,
                                const motion::JointRoles& roles);
 
-/// A push's force in a frame: a half sine over its frames (its mean is force_n), which starts and
-/// ends softly; zero outside.
+/// A push's force in a frame: as recorded, or a half sine over its frames (its mean is force_n),
+/// which starts and ends softly; zero outside.
 Eigen::Vector2d ForceInFrame(const ScenePush& push, int frame);
 
 }  // namespace poise::push

@@ -17,7 +17,8 @@ class StatueRollout : public PushRollout {
               .states = crowd_.states(),
               .interaction = crowd_.interaction(),
               .hips = crowd_.hips(),
-              .onset_frames = onsets_.onset_frames()};
+              .onset_frames = onsets_.onset_frames(),
+              .turns = {}};
     if (!frame_.hips.allFinite()) {
       return base::Internal("NOT_FINITE", "the pendulums left the range of numbers");
     }

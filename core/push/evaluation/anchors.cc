@@ -9,7 +9,7 @@ namespace {
 
 HipPath TrueHip(const TakePerson& person) {
   HipPath hip;
-  for (int frame = 0; frame < person.clip.num_frames(); ++frame) {
+  for (int frame = 0; frame < person.frames(); ++frame) {
     hip.push_back(person.joint(frame, kPelvis));
   }
   return hip;

@@ -12,6 +12,9 @@ namespace poise::push {
 
 using MatrixXf = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// A vector on the floor of each person.
+using FloorVectors = Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
 /// Linear layer: y = x W^T + b.
 struct LinearLayer {
   MatrixXf weight;          // (out, in)

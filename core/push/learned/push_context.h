@@ -19,6 +19,9 @@ struct PersonFacts {
   double phi = 0;
 };
 
+/// A person's mass as networks see it; what lies far outside the recordings counts as their border.
+float MassFeature(double mass_kg);
+
 std::array<float, kContextSize> ContextOf(const PersonFacts& facts);
 
 }  // namespace poise::push

@@ -22,6 +22,12 @@ constexpr std::array<std::optional<JointRole>, kBodyJoints> kRoles = {
     JointRole::kLeftHip,     JointRole::kLeftKnee,      JointRole::kLeftAnkle,
     JointRole::kLeftToe};
 
+// A turn in the ground frame about the world's axes.
+math::Quat InWorld(const math::Quat& turn) {
+  const Vec3 axis = WorldFromGround(turn.vec());
+  return {turn.w(), axis.x(), axis.y(), axis.z()};
+}
+
 }  // namespace
 
 BodyShape ShapeOf(const motion::Clip& clip, int frame, const motion::JointRoles& roles) {
@@ -51,6 +57,7 @@ TurnedBody::TurnedBody(const motion::Clip& standing, const motion::JointRoles& r
   motion::WorldPoses world;
   motion::ForwardKinematics(standing, 0, 1, world);
   standing_ = world.rotations;
+  from_pelvis_ = world.position(0, 0) - world.position(0, roles.joint(JointRole::kPelvis));
   for (int joint = 0; joint < skeleton_->num_joints(); ++joint) {
     if (joint > 0) body_joints_[joint] = body_joints_[skeleton_->parent(joint)];
     for (int body = 0; body < kBodyJoints; ++body) {
@@ -62,14 +69,15 @@ TurnedBody::TurnedBody(const motion::Clip& standing, const motion::JointRoles& r
 std::vector<math::Quat> TurnedBody::Rotations(const BodyTurns& turns) const {
   std::vector<math::Quat> world(standing_.size()), local(standing_.size());
   for (size_t joint = 0; joint < standing_.size(); ++joint) {
-    const math::Quat& turn = turns[body_joints_[joint]];
-    // The same turn about the world's axes.
-    const Vec3 axis = WorldFromGround(turn.vec());
-    world[joint] = math::Quat(turn.w(), axis.x(), axis.y(), axis.z()) * standing_[joint];
+    world[joint] = InWorld(turns[body_joints_[joint]]) * standing_[joint];
     const int parent = skeleton_->parent(static_cast<int>(joint));
     local[joint] = parent < 0 ? world[joint] : world[parent].conjugate() * world[joint];
   }
   return local;
+}
+
+Vec3 TurnedBody::RootPosition(const BodyTurns& turns, const Vec3& pelvis) const {
+  return pelvis + InWorld(turns[body_joints_[0]]) * from_pelvis_;
 }
 
 }  // namespace poise::push

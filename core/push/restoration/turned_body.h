@@ -23,11 +23,14 @@ class TurnedBody {
 
   /// Local rotations of the skeleton's joints; turns are in the ground frame.
   std::vector<math::Quat> Rotations(const BodyTurns& turns) const;
+  /// Where the root then is when the pelvis is at `pelvis` [m]; world frame.
+  Vec3 RootPosition(const BodyTurns& turns, const Vec3& pelvis) const;
 
  private:
   motion::SkeletonPtr skeleton_;
   std::vector<int> body_joints_;      // of each joint, the one of the 22 that turns it
   std::vector<math::Quat> standing_;  // world rotations
+  Vec3 from_pelvis_;                  // to the root, standing [m]
 };
 
 }  // namespace poise::push

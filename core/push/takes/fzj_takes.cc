@@ -23,7 +23,7 @@ Status Malformed(const std::string& what, const std::string& problem) {
 }
 
 Status CheckBody(const TakePerson& person) {
-  const motion::Skeleton& skeleton = *person.clip.skeleton();
+  const motion::Skeleton& skeleton = *person.clip->skeleton();
   if (skeleton.num_joints() != kBodyJoints) {
     return Malformed(person.file, fmt::format("the skeleton has {} joints, expected {}",
                                               skeleton.num_joints(), kBodyJoints));
@@ -51,11 +51,11 @@ StatusOr<TakePerson> ReadPerson(const fs::path& folder, const std::string& file,
                     .clip = std::move(read.clip),
                     .joints = {}};
   POISE_RETURN_IF_ERROR(CheckBody(person));
-  if (person.clip.num_frames() != frames) {
-    return Malformed(file,
-                     fmt::format("{} frames, the table says {}", person.clip.num_frames(), frames));
+  if (person.clip->num_frames() != frames) {
+    return Malformed(
+        file, fmt::format("{} frames, the table says {}", person.clip->num_frames(), frames));
   }
-  person.joints = motion::ForwardKinematics(person.clip).positions;
+  person.joints = motion::ForwardKinematics(*person.clip).positions;
   for (Vec3& joint : person.joints) joint = GroundFromWorld(joint);
   return person;
 }
@@ -185,12 +185,16 @@ std::vector<const PushTake*> TakesOf(const std::vector<PushTake>& takes, Split s
   return chosen;
 }
 
-TrainingTakes SplitTraining(const std::vector<PushTake>& takes) {
+TrainingTakes SplitTraining(const std::vector<PushTake>& takes, int fold) {
+  const auto set_of = [](const PushTake& take) { return take.group + take.session; };
+  const std::vector<const PushTake*> all = TakesOf(takes, Split::kTrain);
+  std::map<std::string, int> sizes, seen;  // of each set: training takes, and those so far
+  for (const PushTake* take : all) ++sizes[set_of(*take)];
   TrainingTakes split;
-  std::map<std::string, int> seen;  // training takes so far, by subject and session or by group
-  for (const PushTake* take : TakesOf(takes, Split::kTrain)) {
-    const int place = seen[take->group + take->session]++;
-    const bool chosen = take->multi ? place % 6 == 2 : place == 1;
+  for (const PushTake* take : all) {
+    const int place = seen[set_of(*take)]++;
+    const bool chosen =
+        take->multi ? place % 6 == (2 + fold) % 6 : place == (1 + fold) % sizes[set_of(*take)];
     (chosen ? split.validation : split.train).push_back(take);
   }
   return split;

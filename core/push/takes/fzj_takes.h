@@ -21,12 +21,12 @@ std::vector<const PushTake*> TakesOf(const std::vector<PushTake>& takes, Split s
 
 /// The training takes parted into those that train and those that choose among settings; test takes
 /// appear in neither. Single: one take a subject and session. Several people: every sixth training
-/// take of a group, from the third on.
+/// take of a group. `fold` counts which ones; the same again after some.
 struct TrainingTakes {
   std::vector<const PushTake*> train;
   std::vector<const PushTake*> validation;
 };
-TrainingTakes SplitTraining(const std::vector<PushTake>& takes);
+TrainingTakes SplitTraining(const std::vector<PushTake>& takes, int fold = 0);
 
 }  // namespace poise::push
 

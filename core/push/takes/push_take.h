@@ -2,6 +2,7 @@
 #define POISE_CORE_PUSH_TAKES_PUSH_TAKE_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,9 +27,10 @@ struct TakePerson {
   double mass_kg = 0;
   int stated_onset = 0;           ///< frame of the first movement by the data set's rule; -1: never
   bool rest_pose_turned = false;  ///< of the clip, when it was turned to Y up
-  motion::Clip clip;
-  std::vector<Vec3> joints;
+  std::optional<motion::Clip> clip = std::nullopt;  ///< none in takes from a take file
+  std::vector<Vec3> joints = {};
 
+  int frames() const { return static_cast<int>(joints.size()) / kBodyJoints; }
   const Vec3& joint(int frame, int joint) const { return joints[frame * kBodyJoints + joint]; }
   std::span<const Vec3> pose(int frame) const {
     return {joints.data() + static_cast<size_t>(frame) * kBodyJoints, kBodyJoints};

@@ -20,7 +20,7 @@ Tensor MeanOverTakes(const Tensor& values, const Tensor& mask) {
 }
 
 learning::Loss LossOf(const HipPaths& paths, const TakeBatch& batch, int64_t frames,
-                      const HipTrainingConfig& config) {
+                      const HipTraining& config) {
   const auto cut = [&](const Tensor& whole) { return whole.slice(2, 0, frames); };
   const auto rate = [&](const Tensor& path) {
     return (path.slice(2, 1) - path.slice(2, 0, -1)) * kFrameRate;
@@ -36,29 +36,14 @@ learning::Loss LossOf(const HipPaths& paths, const TakeBatch& batch, int64_t fra
                     {"lean_rad", lean.item<double>()}}};
 }
 
-int64_t FramesAt(int64_t step, int64_t longest, const HipTrainingConfig& config) {
-  const double grown = std::min(1.0, step / std::max(1.0, config.growing_share * config.steps));
+int64_t FramesAt(int64_t step, int64_t longest, const HipTraining& config) {
+  const double grown =
+      std::min(1.0, step / std::max(1.0, config.growing_share * config.network.steps));
   const double frames = config.first_frames + grown * (longest - config.first_frames);
   return std::min<int64_t>(longest, std::lround(frames));
 }
 
 }  // namespace
-
-std::vector<base::Field> HipTrainingConfig::Fields() {
-  return {
-      base::Number("steps", &steps, int64_t{1}, int64_t{1'000'000}),
-      base::Number("batch_size", &batch_size, 1, 1000),
-      base::Number("learning_rate", &learning_rate, 1e-8, 1),
-      base::Number("weight_decay", &weight_decay, 0, 1),
-      base::Number("clip_norm", &clip_norm, 1e-6, 1e6),
-      base::Number("first_frames", &first_frames, 2, 1000),
-      base::Number("growing_share", &growing_share, 0, 1),
-      base::Number("velocity_weight", &velocity_weight, 0, 10),
-      base::Number("lean_weight", &lean_weight, 0, 10),
-      base::Flag("mirror", &mirror),
-      base::Number("validate_every", &validate_every, int64_t{1}, int64_t{1'000'000}),
-  };
-}
 
 double HipAde(HipNet net, const TakeBatch& batch) {
   torch::NoGradGuard no_gradient;
@@ -68,37 +53,31 @@ double HipAde(HipNet net, const TakeBatch& batch) {
 }
 
 StatusOr<TrainedHip> TrainHip(const TrainingTakes& takes, Protocol protocol, const HipConfig& net,
-                              const HipTrainingConfig& config, const base::RunContext& context) {
+                              const HipTraining& config, const base::RunContext& context,
+                              const Resumption& resumption) {
   return learning::Guard("train the hip network", [&]() -> StatusOr<TrainedHip> {
     learning::SeedTorch(context.seed);
-    TrainedHip trained{HipNet(net), {}};
+    TrainedHip trained{HipNet(net), {}, {}};
     base::Random noise(context.seed);
-    const TakeBatch validation = MakeBatch(takes.validation, protocol, false, noise);
+    const TakeBatch validation = MakeBatch(takes.validation, protocol, {}, noise);
     const auto loss = [&](const learning::Batch& step) -> StatusOr<learning::Loss> {
       std::vector<const PushTake*> chosen;
       for (const int64_t sample : step.samples) chosen.push_back(takes.train[sample]);
-      const TakeBatch batch = MakeBatch(chosen, protocol, config.mirror, step.random);
+      const TakeBatch batch =
+          MakeBatch(chosen, protocol, {.mirror = config.mirror, .still_share = config.still_share},
+                    step.random);
       const int64_t frames = FramesAt(step.step, batch.frames(), config);
       return LossOf(trained.net->Rollout(batch, frames), batch, frames, config);
     };
-    learning::TrainingSetup setup;
-    setup.networks.push_back({.name = "hip",
-                              .module = trained.net.ptr(),
-                              .optimizer = {.type = "adamw",
-                                            .learning_rate = config.learning_rate,
-                                            .weight_decay = config.weight_decay,
-                                            .schedule = "cosine",
-                                            .clip_norm = config.clip_norm},
-                              .loss = loss});
-    setup.num_samples = static_cast<int64_t>(takes.train.size());
-    setup.validate = [&]() -> StatusOr<double> { return HipAde(trained.net, validation); };
-    setup.seed = context.seed;
-    POISE_ASSIGN_OR_RETURN(
-        const auto trainer,
-        learning::Trainer::Create(std::move(setup), {.steps = config.steps,
-                                                     .batch_size = config.batch_size,
-                                                     .validate_every = config.validate_every}));
-    POISE_ASSIGN_OR_RETURN(trained.report, trainer->Run(context));
+    NetworkTask task{
+        .name = "hip",
+        .module = trained.net.ptr(),
+        .config = config.network,
+        .num_samples = static_cast<int64_t>(takes.train.size()),
+        .loss = loss,
+        .validate = [&]() -> StatusOr<double> { return HipAde(trained.net, validation); }};
+    POISE_ASSIGN_OR_RETURN(trained.report,
+                           TrainNetwork(std::move(task), context, resumption, &trained.curve_csv));
     return trained;
   });
 }

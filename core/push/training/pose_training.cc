@@ -5,6 +5,7 @@
 
 #include "core/learning/nn/guard.h"
 #include "core/push/body_joints.h"
+#include "core/push/learned/push_context.h"
 #include "core/push/pendulum/pendulum.h"
 
 namespace poise::push {
@@ -69,7 +70,7 @@ void FillPerson(const PersonRef& ref, int64_t row, const Distortion& distortion,
       }
     }
   }
-  body[row][63] = static_cast<float>(person.mass_kg / 80 - 1);
+  body[row][63] = MassFeature(person.mass_kg);
 }
 
 Tensor PerPerson(const Tensor& values, const Tensor& mask) {
@@ -80,8 +81,7 @@ Tensor JointError(const Tensor& a, const Tensor& b) {
   return ((a - b).square().sum(-1) + 1e-8).sqrt().mean(-1);
 }
 
-learning::Loss LossOf(const PosePaths& found, const PoseBatch& batch,
-                      const PoseTrainingConfig& config) {
+learning::Loss LossOf(const PosePaths& found, const PoseBatch& batch, const PoseTraining& config) {
   const auto rate = [](const Tensor& path) {
     return (path.slice(1, 1) - path.slice(1, 0, -1)) * kFrameRate;
   };
@@ -97,20 +97,6 @@ learning::Loss LossOf(const PosePaths& found, const PoseBatch& batch,
 
 }  // namespace
 
-std::vector<base::Field> PoseTrainingConfig::Fields() {
-  return {
-      base::Number("pose_steps", &steps, int64_t{1}, int64_t{1'000'000}),
-      base::Number("pose_batch_size", &batch_size, 1, 1000),
-      base::Number("pose_learning_rate", &learning_rate, 1e-8, 1),
-      base::Number("pose_weight_decay", &weight_decay, 0, 1),
-      base::Number("pose_clip_norm", &clip_norm, 1e-6, 1e6),
-      base::Number("hip_distortion", &hip_distortion, 0, 1),
-      base::Number("pose_speed_weight", &speed_weight, 0, 10),
-      base::Flag("pose_mirror", &mirror),
-      base::Number("pose_validate_every", &validate_every, int64_t{1}, int64_t{1'000'000}),
-  };
-}
-
 std::vector<PersonRef> PeopleOf(const std::vector<const PushTake*>& takes) {
   std::vector<PersonRef> people;
   for (const PushTake* take : takes) {
@@ -120,7 +106,7 @@ std::vector<PersonRef> PeopleOf(const std::vector<const PushTake*>& takes) {
 }
 
 PoseBatch MakePoseBatch(const std::vector<PersonRef>& people, int lookahead,
-                        const PoseTrainingConfig& config, base::Random* random) {
+                        const PoseTraining& config, base::Random* random) {
   int64_t frames = 0;
   for (const PersonRef& ref : people) frames = std::max<int64_t>(frames, ref.take->frames);
   const auto count = static_cast<int64_t>(people.size());
@@ -142,10 +128,11 @@ PoseBatch MakePoseBatch(const std::vector<PersonRef>& people, int lookahead,
 }
 
 StatusOr<TrainedPose> TrainPose(const TrainingTakes& takes, const PoseConfig& net,
-                                const PoseTrainingConfig& config, const base::RunContext& context) {
+                                const PoseTraining& config, const base::RunContext& context,
+                                const Resumption& resumption) {
   return learning::Guard("train the pose network", [&]() -> StatusOr<TrainedPose> {
     learning::SeedTorch(context.seed);
-    TrainedPose trained{PoseNet(net), {}};
+    TrainedPose trained{PoseNet(net), {}, {}};
     const std::vector<PersonRef> people = PeopleOf(takes.train);
     const PoseBatch validation =
         MakePoseBatch(PeopleOf(takes.validation), net.lookahead, config, nullptr);
@@ -155,26 +142,17 @@ StatusOr<TrainedPose> TrainPose(const TrainingTakes& takes, const PoseConfig& ne
       const PoseBatch batch = MakePoseBatch(chosen, net.lookahead, config, &step.random);
       return LossOf(trained.net->Forward(batch), batch, config);
     };
-    learning::TrainingSetup setup;
-    setup.networks.push_back({.name = "pose",
-                              .module = trained.net.ptr(),
-                              .optimizer = {.type = "adamw",
-                                            .learning_rate = config.learning_rate,
-                                            .weight_decay = config.weight_decay,
-                                            .schedule = "cosine",
-                                            .clip_norm = config.clip_norm},
-                              .loss = loss});
-    setup.num_samples = static_cast<int64_t>(people.size());
-    setup.validate = [&]() -> StatusOr<double> {
-      return LossOf(trained.net->Forward(validation), validation, config).terms.at("pose_m");
-    };
-    setup.seed = context.seed;
-    POISE_ASSIGN_OR_RETURN(
-        const auto trainer,
-        learning::Trainer::Create(std::move(setup), {.steps = config.steps,
-                                                     .batch_size = config.batch_size,
-                                                     .validate_every = config.validate_every}));
-    POISE_ASSIGN_OR_RETURN(trained.report, trainer->Run(context));
+    NetworkTask task{
+        .name = "pose",
+        .module = trained.net.ptr(),
+        .config = config.network,
+        .num_samples = static_cast<int64_t>(people.size()),
+        .loss = loss,
+        .validate = [&]() -> StatusOr<double> {
+          return LossOf(trained.net->Forward(validation), validation, config).terms.at("pose_m");
+        }};
+    POISE_ASSIGN_OR_RETURN(trained.report,
+                           TrainNetwork(std::move(task), context, resumption, &trained.curve_csv));
     return trained;
   });
 }

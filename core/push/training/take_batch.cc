@@ -27,9 +27,15 @@ PendulumPose PoseOf(const TakePerson& person, int frame) {
                     person.joint(frame, kLeftAnkle));
 }
 
-// `side` is -1 for a mirrored take.
-void FillPerson(const PushTake& take, int64_t row, size_t i, const PushInput& input, double side,
-                TakeBatch& batch) {
+// How one take differs from its recording.
+struct Variant {
+  double side = 1;     // -1: mirrored
+  bool still = false;  // nobody is pushed, nobody moves
+};
+
+void FillPerson(const PushTake& take, int64_t row, size_t i, const PushInput& input,
+                const Variant& variant, TakeBatch& batch) {
+  const double side = variant.side;
   const TakePerson& person = take.people[i];
   const PendulumPose first = PoseOf(person, 0);
   const Vec3 start = person.joint(0, kPelvis);
@@ -38,6 +44,8 @@ void FillPerson(const PushTake& take, int64_t row, size_t i, const PushInput& in
   auto push = batch.push.accessor<float, 4>();
   auto mask = batch.mask.accessor<float, 3>(), places = batch.place.accessor<float, 3>();
   for (int frame = 0; frame < take.frames; ++frame) {
+    mask[row][i][frame] = 1;
+    if (variant.still) continue;
     const Vec3 path = person.joint(frame, kPelvis) - start;
     const Eigen::Vector4d moved = PoseOf(person, frame).position - first.position;
     for (int axis = 0; axis < 2; ++axis) {
@@ -45,7 +53,6 @@ void FillPerson(const PushTake& take, int64_t row, size_t i, const PushInput& in
       hip[row][i][frame][axis] = static_cast<float>(sign * path[axis]);
       lean[row][i][frame][axis] = static_cast<float>(sign * moved[2 + axis]);
     }
-    mask[row][i][frame] = 1;
   }
   places[row][i][0] = static_cast<float>(place.x());
   places[row][i][1] = static_cast<float>(side * place.y());
@@ -53,7 +60,7 @@ void FillPerson(const PushTake& take, int64_t row, size_t i, const PushInput& in
                     .mass_kg = person.mass_kg,
                     .theta = first.position[2],
                     .phi = side * first.position[3]};
-  if (i == 0) {
+  if (i == 0 && !variant.still) {
     facts.pushed = true;
     facts.impulse_ns = input.impulse_ns;
     facts.push_frames = take.push_frames;
@@ -70,14 +77,16 @@ void FillPerson(const PushTake& take, int64_t row, size_t i, const PushInput& in
 
 }  // namespace
 
-TakeBatch MakeBatch(std::span<const PushTake* const> takes, Protocol protocol, bool mirror,
-                    base::Random& random) {
+TakeBatch MakeBatch(std::span<const PushTake* const> takes, Protocol protocol,
+                    const TakeVariation& variation, base::Random& random) {
   TakeBatch batch = EmptyBatch(takes);
   for (size_t row = 0; row < takes.size(); ++row) {
     const PushTake& take = *takes[row];
     const PushInput input = InputOf(take, protocol, random);
-    const double side = mirror && random.Uniform() < 0.5 ? -1 : 1;
-    for (size_t i = 0; i < take.people.size(); ++i) FillPerson(take, row, i, input, side, batch);
+    Variant variant;
+    if (variation.mirror && random.Uniform() < 0.5) variant.side = -1;
+    if (variation.still_share > 0) variant.still = random.Uniform() < variation.still_share;
+    for (size_t i = 0; i < take.people.size(); ++i) FillPerson(take, row, i, input, variant, batch);
   }
   return batch;
 }

@@ -26,9 +26,15 @@ struct TakeBatch {
   int64_t people() const { return hip.size(1); }
 };
 
-/// `random` draws protocol C's noise, and with `mirror` which takes change left and right.
-TakeBatch MakeBatch(std::span<const PushTake* const> takes, Protocol protocol, bool mirror,
-                    base::Random& random);
+/// How takes are varied for training.
+struct TakeVariation {
+  bool mirror = false;     ///< half of the takes change left and right
+  double still_share = 0;  ///< [0 to 1] of takes without a push, in which nobody moves
+};
+
+/// `random` draws protocol C's noise and the variation.
+TakeBatch MakeBatch(std::span<const PushTake* const> takes, Protocol protocol,
+                    const TakeVariation& variation, base::Random& random);
 
 }  // namespace poise::push
 

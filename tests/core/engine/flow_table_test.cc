@@ -34,6 +34,8 @@ TEST(FlowTableTest, OnlyJobsThatLearnNeedLibTorch) {
            {"sources", {source}}, {"method", "vae"}, {"model_artifact", "artifacts/1"}}}));
   EXPECT_FALSE(NeedsTorch({.kind = "selftest", .parameters = {}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_vae", .parameters = {}}));
+  EXPECT_TRUE(NeedsTorch({.kind = "train_push", .parameters = {}}));
+  EXPECT_FALSE(NeedsTorch({.kind = "evaluate_push", .parameters = {}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_predictor", .parameters = {}}));
   EXPECT_FALSE(NeedsTorch({.kind = "evaluate_predictor", .parameters = {}}));
   EXPECT_FALSE(NeedsTorch({.kind = "nonsense", .parameters = {}}));

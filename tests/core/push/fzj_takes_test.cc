@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/tensor_file.h"
 #include "core/push/takes/csv_table.h"
 #include "core/push/takes/onset.h"
+#include "core/push/takes/take_file.h"
 #include "tests/core/push/fzj_data.h"
 
 namespace poise::push {
@@ -72,6 +74,42 @@ TEST(FzjTakesTest, TheAuthorsTwoCorrectionsOfPushLengthsAreApplied) {
 TEST(FzjTakesTest, MissingFolderIsNotFound) {
   const auto takes = ReadSingleTakes("/nowhere");
   EXPECT_EQ(takes.status().code(), absl::StatusCode::kNotFound);
+}
+
+TEST(TakeFileTest, KeepsEveryNumberOfTheTakes) {
+  POISE_REQUIRE_DATA("fzj_push");
+  const std::vector<PushTake> takes = {testing::TakeNamed("X07", 11),
+                                       testing::TakeNamed("row_1", 6)};
+  const std::string bytes = EncodeTakes(takes);
+  const auto read = DecodeTakes(bytes, "takes");
+  ASSERT_TRUE(read.ok()) << read.status();
+  ASSERT_EQ(read->size(), takes.size());
+  for (size_t i = 0; i < takes.size(); ++i) {
+    const PushTake &was = takes[i], &is = (*read)[i];
+    EXPECT_EQ(is.name(), was.name());
+    EXPECT_EQ(is.split, was.split);
+    EXPECT_EQ(is.multi, was.multi);
+    EXPECT_EQ(is.session, was.session);
+    EXPECT_EQ(is.frames, was.frames);
+    EXPECT_EQ(is.force, was.force);
+    EXPECT_EQ(is.push_frames, was.push_frames);
+    ASSERT_EQ(is.people.size(), was.people.size());
+    for (size_t person = 0; person < was.people.size(); ++person) {
+      EXPECT_EQ(is.people[person].joints, was.people[person].joints);
+      EXPECT_EQ(is.people[person].mass_kg, was.people[person].mass_kg);
+      EXPECT_EQ(is.people[person].stated_onset, was.people[person].stated_onset);
+    }
+  }
+}
+
+TEST(TakeFileTest, RefusesWhatIsNone) {
+  EXPECT_FALSE(DecodeTakes("no tensors", "takes").ok());
+  base::TensorFile file;
+  EXPECT_EQ(base::ErrorReason(DecodeTakes(base::EncodeTensors(file), "takes").status()),
+            "MALFORMED_TAKE");
+  file.metadata["takes"] = "[{\"group\": \"X05\"}]";
+  EXPECT_EQ(base::ErrorReason(DecodeTakes(base::EncodeTensors(file), "takes").status()),
+            "MALFORMED_TAKE");
 }
 
 }  // namespace

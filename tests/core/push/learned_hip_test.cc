@@ -8,6 +8,7 @@
 #include "core/push/training/hip_net.h"
 #include "core/push/training/hip_training.h"
 #include "core/push/training/pose_training.h"
+#include "core/push/training/train_push.h"
 #include "tests/core/push/fzj_data.h"
 
 namespace poise::push {
@@ -54,10 +55,12 @@ TEST(LearnedHipTest, ForecastsAreTheTrainedNetworksToAMillionth) {
   const auto model = HipModel::Read(file, "hip.0.", config);
   ASSERT_TRUE(model.ok()) << model.status();
   HipStates states = HipStates::Standing(4, config.hidden);
-  const MatrixXf place = ToMatrix(batch.place[0]), context = ToMatrix(batch.context[0]);
+  HipInfluence influence = HipInfluence::None(4);
+  influence.place = ToMatrix(batch.place[0]);
+  influence.context = ToMatrix(batch.context[0]);
   for (int64_t frame = 0; frame + 1 < kFrames; ++frame) {
-    const MatrixXf push = ToMatrix(batch.push[0].select(1, frame)) / static_cast<float>(kPushScale);
-    model->Step(place, push, context, PairsWithin(place + states.hip, config.reach_m), states);
+    influence.push = ToMatrix(batch.push[0].select(1, frame)) / static_cast<float>(kPushScale);
+    model->Step(influence, PairsWithin(influence.place + states.hip, config.reach_m), states);
     const MatrixXf hip = ToMatrix(expected.hip[0].select(1, frame + 1));
     const MatrixXf lean = ToMatrix(expected.lean[0].select(1, frame + 1));
     ASSERT_LT((states.hip - hip).cwiseAbs().maxCoeff(), 2e-6) << frame;
@@ -130,12 +133,14 @@ TEST(LearnedHipTest, AFewStepsOnOneTakeBringItsHipNearer) {
   const TrainingTakes takes{{&take}, {&take}};
   base::RunContext context;
   context.seed = 1;
-  const auto trained =
-      TrainHip(takes, Protocol::kB, {},
-               {.steps = 60, .batch_size = 1, .mirror = false, .validate_every = 20}, context);
+  const auto trained = TrainHip(takes, Protocol::kB, {},
+                                {.network = {.steps = 60, .batch_size = 1, .validate_every = 20},
+                                 .still_share = 0,
+                                 .mirror = false},
+                                context);
   ASSERT_TRUE(trained.ok()) << trained.status();
   base::Random random(1);
-  const TakeBatch batch = MakeBatch(takes.train, Protocol::kB, false, random);
+  const TakeBatch batch = MakeBatch(takes.train, Protocol::kB, {}, random);
   const double standing = batch.hip.square().sum(-1).sqrt().mean().item<double>();
   EXPECT_LT(trained->report.best_validation, 0.5 * standing);
 }
@@ -145,7 +150,7 @@ TEST(LearnedHipTest, AMirroredTakeIsTheSameTakeFromTheOtherSide) {
   const PushTake& take = testing::TakeNamed("group_1", 0);
   const std::vector<const PushTake*> takes(8, &take);
   base::Random random(4);
-  const TakeBatch batch = MakeBatch(takes, Protocol::kA, true, random);
+  const TakeBatch batch = MakeBatch(takes, Protocol::kA, {.mirror = true}, random);
   const Tensor sides = batch.place.select(1, 1).select(1, 1).sign();
   EXPECT_LT(sides.min().item<double>(), sides.max().item<double>());  // both occur
   const Tensor side = sides.reshape({8, 1, 1});
@@ -154,6 +159,43 @@ TEST(LearnedHipTest, AMirroredTakeIsTheSameTakeFromTheOtherSide) {
                 .max()
                 .item<double>(),
             1e-6);
+}
+
+TEST(TrainPushTest, AnInterruptedTrainingEndsWithTheSameWeights) {
+  POISE_REQUIRE_DATA("fzj_push");
+  std::vector<PushTake> takes;
+  for (const PushTake& take : testing::SingleTakes()) {
+    if (take.group == "X05") takes.push_back(take);
+  }
+  PushTraining config;
+  config.hip_members = 2;
+  config.pose_members = 1;
+  config.hip = {.hidden = 8, .message = 4, .message_hidden = 4};
+  config.pose = {.hidden = 8};
+  config.hip_training.network = {.steps = 4, .batch_size = 2, .validate_every = 2};
+  config.pose_training.network = {.steps = 4, .batch_size = 2, .validate_every = 2};
+  base::RunContext context;
+  context.seed = 3;
+  const PushTask task{.takes = takes, .config = config};
+  const auto whole = TrainPush(task, context);
+  ASSERT_TRUE(whole.ok()) << whole.status();
+  // Stopped in the second member: it hands over a checkpoint.
+  std::string checkpoint;
+  base::RunContext stopped = context;
+  stopped.progress = [&](const base::Progress& progress) {
+    if (progress.step >= 6) stopped.cancellation.Cancel();
+  };
+  const learning::CheckpointSink sink{absl::ZeroDuration(), [&](std::string_view bytes, int64_t) {
+                                        checkpoint = bytes;
+                                        return absl::OkStatus();
+                                      }};
+  EXPECT_TRUE(absl::IsCancelled(TrainPush(task, stopped, {}, sink).status()));
+  ASSERT_FALSE(checkpoint.empty());
+  const auto resumed = TrainPush(task, context, checkpoint);
+  ASSERT_TRUE(resumed.ok()) << resumed.status();
+  EXPECT_EQ(resumed->model.card.weights_sha256, whole->model.card.weights_sha256);
+  EXPECT_EQ(resumed->model.card.scores, whole->model.card.scores);
+  EXPECT_EQ(base::ErrorReason(TrainPush(task, context, "nonsense").status()), "CORRUPT_CHECKPOINT");
 }
 
 }  // namespace

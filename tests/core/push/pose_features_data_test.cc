@@ -16,7 +16,7 @@ namespace {
 // Rotations as the file has them: turned back to Z up together with the rest pose.
 std::vector<math::Quat> FileRotations(const TakePerson& person) {
   const math::Quat ground_from_world(math::Quat::FromTwoVectors(Vec3::UnitY(), Vec3::UnitZ()));
-  std::vector<math::Quat> rotations = motion::ForwardKinematics(person.clip).rotations;
+  std::vector<math::Quat> rotations = motion::ForwardKinematics(*person.clip).rotations;
   for (math::Quat& rotation : rotations) {
     rotation = ground_from_world * rotation;
     if (person.rest_pose_turned) rotation = rotation * ground_from_world.conjugate();
@@ -41,7 +41,7 @@ struct Sets {
 
   void Add(const TakePerson& person) {
     const std::vector<math::Quat> rotations = FileRotations(person);
-    const BodyMotion motion{person.clip.num_frames(), person.joints, rotations};
+    const BodyMotion motion{person.frames(), person.joints, rotations};
     const Eigen::MatrixXd low = PoseFeatures(motion, kLowerBody);
     const Eigen::MatrixXd up = PoseFeatures(motion, kUpperBody);
     for (int frame = 0; frame < low.rows(); ++frame) {

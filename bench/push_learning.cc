@@ -1,0 +1,114 @@
+// Trains a push model on the recorded takes and writes its folder:
+//
+//   push_learning --data DIR/fzj_push --seed 1 --save models/push-fzj/1
+//   push_learning --data DIR/fzj_push --seed 1 --set protocol=A --save /tmp/a
+//
+// Goes on from SAVE.checkpoint when it was interrupted. Progress goes to standard error.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "CLI/CLI.hpp"
+#include "core/artifacts/model_artifact.h"
+#include "core/push/takes/fzj_takes.h"
+#include "core/push/training/train_push.h"
+
+namespace poise {
+namespace {
+
+struct Options {
+  std::string data, save, license;
+  std::string preset = "recommended";
+  std::vector<std::string> assignments;
+  uint64_t seed = 1;
+};
+
+StatusOr<std::vector<push::PushTake>> ReadTakes(const std::string& folder) {
+  POISE_ASSIGN_OR_RETURN(std::vector<push::PushTake> takes, push::ReadSingleTakes(folder));
+  POISE_ASSIGN_OR_RETURN(std::vector<push::PushTake> more, push::ReadMultiTakes(folder));
+  std::move(more.begin(), more.end(), std::back_inserter(takes));
+  return takes;
+}
+
+StatusOr<push::PushTraining> Training(const Options& options) {
+  POISE_ASSIGN_OR_RETURN(push::PushTraining config, push::PushTraining::FromPreset(options.preset));
+  base::Overrides overrides;
+  for (const std::string& assignment : options.assignments) {
+    const size_t equals = assignment.find('=');
+    overrides[assignment.substr(0, equals)] =
+        equals == std::string::npos ? "" : assignment.substr(equals + 1);
+  }
+  POISE_RETURN_IF_ERROR(base::ApplyOverrides(overrides, config.Fields()));
+  return config;
+}
+
+std::optional<std::string> ReadFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+void PrintProgress(const base::Progress& progress) {
+  if (progress.step % 60 != 0) return;
+  std::fprintf(stderr, "%s: step %ld of %ld", progress.message.c_str(),
+               static_cast<long>(progress.step), static_cast<long>(progress.total));
+  for (const auto& [name, value] : progress.metrics) {
+    std::fprintf(stderr, "  %s %.4f", name.c_str(), value);
+  }
+  std::fprintf(stderr, "\n");
+}
+
+Status Run(const Options& options) {
+  POISE_ASSIGN_OR_RETURN(const std::vector<push::PushTake> takes, ReadTakes(options.data));
+  POISE_ASSIGN_OR_RETURN(const push::PushTraining config, Training(options));
+  base::RunContext context;
+  context.seed = options.seed;
+  context.progress = PrintProgress;
+  const std::string checkpoint = options.save + ".checkpoint";
+  const learning::CheckpointSink sink{absl::Minutes(1), [&](std::string_view bytes, int64_t) {
+                                        std::ofstream(checkpoint + ".new", std::ios::binary)
+                                            << bytes;
+                                        std::filesystem::rename(checkpoint + ".new", checkpoint);
+                                        return absl::OkStatus();
+                                      }};
+  POISE_ASSIGN_OR_RETURN(const push::PushResult trained,
+                         push::TrainPush({.takes = takes,
+                                          .config = config,
+                                          .preset = options.preset,
+                                          .data = "FZJ Push",
+                                          .data_license = options.license},
+                                         context, ReadFile(checkpoint), sink));
+  std::filesystem::create_directories(options.save);
+  POISE_RETURN_IF_ERROR(artifacts::WriteModelFolder(trained.model, options.save));
+  std::ofstream(options.save + "_curve.csv") << trained.curve_csv;
+  std::filesystem::remove(checkpoint);
+  std::printf("trained %ld steps in %.0f s:", static_cast<long>(trained.model.card.steps),
+              trained.seconds);
+  for (const auto& [name, value] : trained.model.card.scores) {
+    std::printf(" %s %.4f", name.c_str(), value);
+  }
+  std::printf("\n");
+  return absl::OkStatus();
+}
+
+}  // namespace
+}  // namespace poise
+
+int main(int argc, char** argv) {
+  poise::Options options;
+  CLI::App app("Trains a push model.");
+  app.add_option("--data", options.data, "Folder of FZJ Push")->required();
+  app.add_option("--save", options.save, "Folder of the model")->required();
+  app.add_option("--seed", options.seed);
+  app.add_option("--preset", options.preset, "recommended");
+  app.add_option("--set", options.assignments, "KEY=VALUE of the training; repeatable");
+  app.add_option("--license", options.license, "Of the data, for the model's card");
+  CLI11_PARSE(app, argc, argv);
+  const poise::Status status = poise::Run(options);
+  if (status.ok()) return 0;
+  std::fprintf(stderr, "error: %s\n", poise::base::Message(status).c_str());
+  return 1;
+}

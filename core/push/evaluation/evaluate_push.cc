@@ -1,0 +1,74 @@
+#include "core/push/evaluation/evaluate_push.h"
+
+#include <utility>
+
+#include "core/push/evaluation/anchors.h"
+
+namespace poise::push {
+namespace {
+
+using Takes = std::vector<const PushTake*>;
+
+std::string ProtocolOf(const artifacts::ModelArtifact& model) {
+  return model.card.config.value("protocol", "B");
+}
+
+template <typename Forecast>
+std::vector<TakeScores> ScoresOf(const Takes& takes, const Forecast& forecast) {
+  std::vector<TakeScores> scores;
+  for (const PushTake* take : takes) scores.push_back(ScoreTake(*take, forecast(*take)));
+  return scores;
+}
+
+StatusOr<std::vector<TakeScores>> StatueScores(const Takes& takes, const std::string& protocol,
+                                               const base::RunContext& context) {
+  POISE_ASSIGN_OR_RETURN(const auto statue, MakeStatueForecaster({}));
+  POISE_ASSIGN_OR_RETURN(const Protocol parsed, ParseProtocol(protocol));
+  return EvaluateForecaster(*statue, takes, parsed, context);
+}
+
+Status AddSet(const std::string& set, const std::vector<NamedModel>& models, const Takes& takes,
+              const base::RunContext& context, std::vector<ForecasterScores>& all) {
+  if (takes.empty()) return absl::OkStatus();
+  all.push_back({{"nobody_moves", "", set, 0}, ScoresOf(takes, NobodyMoves)});
+  all.push_back({{"statue_true_hip", "", set, 0}, ScoresOf(takes, StatueOnTrueHip)});
+  const std::string first = models.empty() ? "B" : ProtocolOf(models.front().model);
+  POISE_ASSIGN_OR_RETURN(std::vector<TakeScores> statue, StatueScores(takes, first, context));
+  all.push_back({{"statue", first, set, 0}, std::move(statue)});
+  for (const NamedModel& named : models) {
+    const std::string protocol = ProtocolOf(named.model);
+    POISE_ASSIGN_OR_RETURN(const Protocol parsed, ParseProtocol(protocol));
+    POISE_ASSIGN_OR_RETURN(const auto learned, MakeLearnedForecaster(named.model));
+    POISE_ASSIGN_OR_RETURN(std::vector<TakeScores> scores,
+                           EvaluateForecaster(*learned, takes, parsed, context));
+    POISE_ASSIGN_OR_RETURN(const std::vector<TakeScores> still,
+                           StatueScores(takes, protocol, context));
+    ForecasterScores& added = all.emplace_back(
+        ForecasterScores{{named.name, protocol, set, named.model.card.seed}, std::move(scores)});
+    for (const char* measure : {"mpjpe", "hipade", "hipfde"}) {
+      added.less_statue[measure] = Compare(added.takes, still, measure, context.seed);
+    }
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+StatusOr<std::vector<ForecasterScores>> EvaluatePush(const std::vector<NamedModel>& models,
+                                                     std::span<const PushTake* const> takes,
+                                                     const base::RunContext& context) {
+  Takes single, several;
+  for (const PushTake* take : takes) (take->multi ? several : single).push_back(take);
+  std::vector<ForecasterScores> all;
+  POISE_RETURN_IF_ERROR(AddSet("single", models, single, context, all));
+  POISE_RETURN_IF_ERROR(AddSet("several", models, several, context, all));
+  return all;
+}
+
+std::string PushScoresCsv(const std::vector<ForecasterScores>& scores) {
+  std::string csv = PushScoresHeader();
+  for (const ForecasterScores& rows : scores) csv += PushScoresRows(rows.labels, rows.takes);
+  return csv;
+}
+
+}  // namespace poise::push

@@ -32,7 +32,7 @@ std::vector<Command> AddModelsCommands(CLI::App& app, const Console& console);
 /// Training data on a server (data_command.cc).
 std::vector<Command> AddDataCommands(CLI::App& app, const Console& console);
 /// Trains networks on a server (train_command.cc).
-Command AddTrainCommand(CLI::App& app, const Console& console);
+std::vector<Command> AddTrainCommands(CLI::App& app, const Console& console);
 /// How good what was made is (evaluate_command.cc).
 std::vector<Command> AddEvaluateCommands(CLI::App& app, const Console& console);
 /// For operators (admin_command.cc).

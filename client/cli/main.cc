@@ -48,7 +48,7 @@ Status Main(const Console& console, int argc, char** argv) {
                                    AddCorrectCommand(app, console), AddPredictCommand(app, console),
                                    AddPushCommand(app, console),    AddHealthCommand(app, console)};
   for (Command& command : AddJobsCommands(app, console)) commands.push_back(std::move(command));
-  commands.push_back(AddTrainCommand(app, console));
+  for (Command& command : AddTrainCommands(app, console)) commands.push_back(std::move(command));
   for (Command& command : AddEvaluateCommands(app, console)) commands.push_back(std::move(command));
   for (Command& command : AddModelsCommands(app, console)) commands.push_back(std::move(command));
   for (Command& command : AddDataCommands(app, console)) commands.push_back(std::move(command));

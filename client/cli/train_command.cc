@@ -26,9 +26,20 @@ constexpr char kVaeFooter[] =
     "  poise train vae --data hdm05 --class kick --hold-out tr --name kick-tr --seed 1\n"
     "  poise train vae --data hdm05 --class jog --name jog --preset paper --detach\n"
     "  poise train vae --data hdm05 --class kick --name kick --set trainer.steps=500";
+constexpr char kDebiasDescription[] =
+    "Train the network that undoes what imitation changes about the motions of one class.\n\n"
+    "A simulated body imitates every clip; the network learns the way back, frame by frame, and "
+    "poise correct --debias applies it. The actor of --hold-out is not learned from; how near to "
+    "the originals his motions are before and after stands in the model's card. Settings: preset "
+    "recommended or paper, then --set (effort, correction: which imitation).";
+constexpr char kDebiasFooter[] =
+    "Examples:\n"
+    "  poise train debias --data hdm05 --class kick --hold-out tr --name kick-habits --seed 1\n"
+    "  poise train debias --data hdm05 --class kick --name kick-habits --set effort=fast";
 constexpr const char* kModelFile = "model.safetensors";
 
 struct TrainOptions {
+  std::string kind;  // of the job
   client::ClientOptions connection = client::ClientOptions::FromEnvironment();
   std::string data, name, action_class, hold_out;
   std::string preset = "recommended";
@@ -40,7 +51,7 @@ struct TrainOptions {
 
 StatusOr<api::CreateJob> Request(const TrainOptions& options, const api::DataSet& data) {
   api::CreateJob request;
-  request.spec.kind = "train_vae";
+  request.spec.kind = options.kind;
   request.request_id = options.request_id;
   request.seed = options.seed;
   POISE_ASSIGN_OR_RETURN(const auto settings, ParsePairs(options.assignments, "set"));
@@ -63,7 +74,7 @@ StatusOr<std::string> ModelArtifact(const api::Job& job) {
                         fmt::format("jobs/{} has no {}", job.id, kModelFile));
 }
 
-Status RunVae(const TrainOptions& options, const Console& console) {
+Status RunTrain(const TrainOptions& options, const Console& console) {
   JobWait wait({.wait = !options.detach}, console);
   POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
   POISE_ASSIGN_OR_RETURN(const api::DataSet data, client->GetDataSet(options.data));
@@ -90,7 +101,7 @@ Status RunVae(const TrainOptions& options, const Console& console) {
   return absl::OkStatus();
 }
 
-void AddVaeFlags(CLI::App& command, TrainOptions& options) {
+void AddFlags(CLI::App& command, TrainOptions& options) {
   command.add_option("--data", options.data, "Data set (poise data list)")
       ->type_name("NAME")
       ->required();
@@ -117,15 +128,24 @@ void AddVaeFlags(CLI::App& command, TrainOptions& options) {
 
 }  // namespace
 
-Command AddTrainCommand(CLI::App& app, const Console& console) {
+std::vector<Command> AddTrainCommands(CLI::App& app, const Console& console) {
   CLI::App* train = app.add_subcommand("train", kDescription);
   train->footer("Example:\n  poise train vae --data hdm05 --class kick --name kick");
-  auto options = std::make_shared<TrainOptions>();
-  CLI::App* vae = train->add_subcommand("vae", kVaeDescription);
-  vae->footer(kVaeFooter);
-  AddVaeFlags(*vae, *options);
-  AddConnectionFlags(*vae, options->connection);
-  return {vae, [options, &console] { return RunVae(*options, console); }};
+  struct Kind {
+    const char *name, *job, *description, *footer;
+  };
+  std::vector<Command> commands;
+  for (const Kind& kind : {Kind{"vae", "train_vae", kVaeDescription, kVaeFooter},
+                           Kind{"debias", "train_debias", kDebiasDescription, kDebiasFooter}}) {
+    CLI::App* command = train->add_subcommand(kind.name, kind.description);
+    command->footer(kind.footer);
+    auto options = std::make_shared<TrainOptions>();
+    options->kind = kind.job;
+    AddFlags(*command, *options);
+    AddConnectionFlags(*command, options->connection);
+    commands.push_back({command, [options, &console] { return RunTrain(*options, console); }});
+  }
+  return commands;
 }
 
 }  // namespace poise::cli

@@ -50,6 +50,25 @@ StatusOr<std::string> ReadInput(const std::string& artifact, const std::string& 
                         fmt::format("'{}' is not among the inputs", artifact));
 }
 
+// The model that a spec names in the field `field`.
+StatusOr<artifacts::ModelArtifact> ReadModel(const std::string& artifact, const std::string& name,
+                                             const std::string& field,
+                                             const jobs::RunInput& input) {
+  POISE_ASSIGN_OR_RETURN(const std::string bytes, ReadInput(artifact, field, input));
+  StatusOr<artifacts::ModelArtifact> model = artifacts::UnpackModel(bytes, name);
+  if (!model.ok()) return base::Annotate(model.status(), "model", field);
+  return model;
+}
+
+// None where the spec names none.
+StatusOr<correction::DebiaserPtr> ReadDebiaser(const api::CorrectSpec& spec,
+                                               const jobs::RunInput& input) {
+  if (spec.debias_artifact.empty()) return correction::DebiaserPtr();
+  POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
+                         ReadModel(spec.debias_artifact, spec.debias, "debias_artifact", input));
+  return correction::Debiaser::Create(model);
+}
+
 StatusOr<CatalogClip> ReadSource(const api::ClipSource& source, const jobs::RunInput& input) {
   const auto& stored = std::get<api::StoredClip>(source.clip);
   POISE_ASSIGN_OR_RETURN(std::string data, ReadInput(stored.artifact, "artifact", input));
@@ -141,11 +160,9 @@ StatusOr<pipeline::MotionDecoderPtr> CorrectRunner::Decoder(const api::CorrectSp
   if (!load_decoder_) {
     return base::FailedPrecondition("NO_NETWORKS", "model", "this program evaluates no networks");
   }
-  POISE_ASSIGN_OR_RETURN(const std::string bytes,
-                         ReadInput(spec.model_artifact, "model_artifact", input));
-  StatusOr<artifacts::ModelArtifact> model = artifacts::UnpackModel(bytes, spec.model);
-  if (!model.ok()) return base::Annotate(model.status(), "model", "model_artifact");
-  return load_decoder_(*model);
+  POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
+                         ReadModel(spec.model_artifact, spec.model, "model_artifact", input));
+  return load_decoder_(model);
 }
 
 StatusOr<jobs::RunOutput> CorrectRunner::Run(const jobs::RunInput& input,
@@ -153,9 +170,11 @@ StatusOr<jobs::RunOutput> CorrectRunner::Run(const jobs::RunInput& input,
   POISE_ASSIGN_OR_RETURN(const api::CorrectSpec spec, SpecOf(input.spec.parameters));
   POISE_ASSIGN_OR_RETURN(Sources sources, ReadSources(spec, input));
   POISE_ASSIGN_OR_RETURN(pipeline::MotionDecoderPtr decoder, Decoder(spec, input));
-  POISE_ASSIGN_OR_RETURN(const auto flow,
-                         pipeline::CorrectFlow::Create(spec, input.seed, std::move(sources.clips),
-                                                       {make_learner_, std::move(decoder)}));
+  POISE_ASSIGN_OR_RETURN(correction::DebiaserPtr debiaser, ReadDebiaser(spec, input));
+  POISE_ASSIGN_OR_RETURN(
+      const auto flow,
+      pipeline::CorrectFlow::Create(spec, input.seed, std::move(sources.clips),
+                                    {make_learner_, std::move(decoder), std::move(debiaser)}));
   CorrectState state = CorrectState::Empty(*flow);
   if (input.checkpoint) {
     POISE_ASSIGN_OR_RETURN(state, DecodeCheckpoint(*input.checkpoint, std::move(state)));

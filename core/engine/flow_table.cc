@@ -4,19 +4,11 @@
 #include <fmt/ranges.h>
 
 #include "core/engine/correct_runner.h"
-#include "core/pipeline/train_vae_spec.h"
+#include "core/pipeline/train_spec.h"
 #include "core/runtime/jobs/selftest_config.h"
 #include "core/runtime/jobs/selftest_runner.h"
 
 namespace poise::engine {
-
-namespace {
-
-Status ValidateTrainVae(const base::Json& parameters) {
-  return pipeline::TrainVaeSpec::FromParameters(parameters).status();
-}
-
-}  // namespace
 
 const std::vector<Flow>& FlowTable() {
   static const std::vector<Flow> flows = {
@@ -24,8 +16,10 @@ const std::vector<Flow>& FlowTable() {
        jobs::MakeSelftestRunner},
       {"correct", "variants of clips that a simulated body has imitated", ValidateCorrect,
        MakeCorrectRunner, CorrectNeedsTorch},
-      {"train_vae", "a variational autoencoder of one class's motions", ValidateTrainVae, nullptr,
-       nullptr, /*trains=*/true},
+      {"train_vae", "a variational autoencoder of one class's motions", pipeline::CheckTrainVae,
+       nullptr, nullptr, /*trains=*/true},
+      {"train_debias", "undoes what imitation changes about a class's motions",
+       pipeline::CheckTrainDebias, nullptr, nullptr, /*trains=*/true},
   };
   return flows;
 }

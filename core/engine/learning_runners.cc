@@ -2,7 +2,7 @@
 
 #include "core/engine/correct_runner.h"
 #include "core/engine/flow_table.h"
-#include "core/engine/train_vae_runner.h"
+#include "core/engine/train_runner.h"
 #include "core/pipeline/load_decoder.h"
 #include "core/pipeline/make_policy_learner.h"
 
@@ -13,7 +13,8 @@ StatusOr<std::unique_ptr<jobs::JobRunner>> MakeRunner(std::string_view kind) {
   if (kind == "correct")
     return std::make_unique<CorrectRunner>(pipeline::MakePolicyLearner, pipeline::LoadDecoder);
   if (flow->make_runner != nullptr) return flow->make_runner();
-  return std::make_unique<TrainVaeRunner>();
+  return std::make_unique<TrainRunner>(
+      std::string(kind), kind == "train_debias" ? pipeline::TrainDebias : pipeline::TrainVae);
 }
 
 }  // namespace poise::engine

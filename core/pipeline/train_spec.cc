@@ -1,15 +1,15 @@
-#include "core/pipeline/train_vae_spec.h"
-
-#include <utility>
+#include "core/pipeline/train_spec.h"
 
 #include "core/api/model_card.h"
+#include "core/correction/debias/debias_config.h"
+#include "core/synthesis/vae/vae_config.h"
 
 namespace poise::pipeline {
 namespace {
 
 constexpr const char* kOverrides = "set";
 
-std::vector<base::Field> Fields(TrainVaeSpec& spec) {
+std::vector<base::Field> Fields(TrainSpec& spec) {
   return {base::Text("name", &spec.name),
           base::Text("data_artifact", &spec.data_artifact),
           base::Text("data", &spec.data),
@@ -19,8 +19,8 @@ std::vector<base::Field> Fields(TrainVaeSpec& spec) {
           base::Text("preset", &spec.preset)};
 }
 
-StatusOr<TrainVaeSpec> Parse(base::Json parameters) {
-  TrainVaeSpec spec;
+StatusOr<TrainSpec> Parse(base::Json parameters) {
+  TrainSpec spec;
   if (parameters.is_object() && parameters.contains(kOverrides)) {
     const base::Json overrides = parameters[kOverrides];
     parameters.erase(kOverrides);
@@ -40,22 +40,29 @@ StatusOr<TrainVaeSpec> Parse(base::Json parameters) {
     return base::InvalidArgument("MISSING_DATA", "data_artifact",
                                  "say what to learn from: the artifact of a data set");
   }
-  POISE_RETURN_IF_ERROR(spec.Config().status());
   return spec;
+}
+
+template <typename Config>
+Status Check(const base::Json& parameters, std::string_view kind) {
+  POISE_ASSIGN_OR_RETURN(const TrainSpec spec, TrainSpec::FromParameters(parameters, kind));
+  return base::Annotate(spec.ConfigOf<Config>().status(), kind, "spec.parameters");
 }
 
 }  // namespace
 
-StatusOr<TrainVaeSpec> TrainVaeSpec::FromParameters(const base::Json& parameters) {
-  StatusOr<TrainVaeSpec> spec = Parse(parameters);
-  if (!spec.ok()) return base::Annotate(spec.status(), "train_vae", "spec.parameters");
+StatusOr<TrainSpec> TrainSpec::FromParameters(const base::Json& parameters, std::string_view kind) {
+  StatusOr<TrainSpec> spec = Parse(parameters);
+  if (!spec.ok()) return base::Annotate(spec.status(), kind, "spec.parameters");
   return spec;
 }
 
-StatusOr<synthesis::VaeConfig> TrainVaeSpec::Config() const {
-  POISE_ASSIGN_OR_RETURN(synthesis::VaeConfig config, synthesis::VaeConfig::FromPreset(preset));
-  POISE_RETURN_IF_ERROR(base::ApplyOverrides(overrides, config.Fields()));
-  return config;
+Status CheckTrainVae(const base::Json& parameters) {
+  return Check<synthesis::VaeConfig>(parameters, "train_vae");
+}
+
+Status CheckTrainDebias(const base::Json& parameters) {
+  return Check<correction::DebiasConfig>(parameters, "train_debias");
 }
 
 }  // namespace poise::pipeline

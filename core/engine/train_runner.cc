@@ -1,4 +1,4 @@
-#include "core/engine/train_vae_runner.h"
+#include "core/engine/train_runner.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,12 @@
 #include <utility>
 
 #include "core/engine/flow_table.h"
-#include "core/pipeline/train_vae.h"
 
 namespace poise::engine {
 namespace {
+
+/// Checkpoints may take this part of the time; more than that, and they wait for the interval.
+constexpr double kCheckpointShare = 0.05;
 
 StatusOr<std::string> ReadInput(const jobs::RunInput& input, const std::string& artifact) {
   const auto path = input.inputs.find(artifact);
@@ -42,30 +44,25 @@ Status Write(const std::filesystem::path& folder, const std::string& name,
 
 }  // namespace
 
-StatusOr<jobs::RunOutput> TrainVaeRunner::Run(const jobs::RunInput& input,
-                                              const jobs::JobContext& context) {
-  POISE_ASSIGN_OR_RETURN(const pipeline::TrainVaeSpec spec,
-                         pipeline::TrainVaeSpec::FromParameters(input.spec.parameters));
+StatusOr<jobs::RunOutput> TrainRunner::Run(const jobs::RunInput& input,
+                                           const jobs::JobContext& context) {
+  POISE_ASSIGN_OR_RETURN(const pipeline::TrainSpec spec,
+                         pipeline::TrainSpec::FromParameters(input.spec.parameters, kind_));
   POISE_ASSIGN_OR_RETURN(const std::string clips, ReadInput(input, spec.data_artifact));
   base::RunContext run = context.run;
   run.seed = input.seed;
   POISE_ASSIGN_OR_RETURN(
-      synthesis::VaeResult result,
-      pipeline::TrainVae(spec, clips, run, input.checkpoint,
-                         {context.checkpoint_interval, context.save_checkpoint}));
+      pipeline::TrainedModel trained,
+      train_(spec, clips, run, input.checkpoint,
+             {context.checkpoint_interval, context.save_checkpoint, kCheckpointShare}));
   jobs::RunOutput output;
-  output.report = {{"scores", result.model.card.scores},
-                   {"trained_on", result.model.card.trained_on},
-                   {"steps", result.model.card.steps}};
+  output.report = {{"scores", trained.model.card.scores},
+                   {"trained_on", trained.model.card.trained_on},
+                   {"steps", trained.model.card.steps}};
   POISE_RETURN_IF_ERROR(Write(input.folder, std::string(kModelFile), "application/octet-stream",
-                              artifacts::PackModel(std::move(result.model)), output));
-  POISE_RETURN_IF_ERROR(
-      Write(input.folder, "learning_curve.csv", "text/csv", result.curve_csv, output));
-  POISE_RETURN_IF_ERROR(
-      Write(input.folder, "learning_curve.svg", "image/svg+xml", result.curve_svg, output));
-  if (!result.latent_map_svg.empty()) {
-    POISE_RETURN_IF_ERROR(
-        Write(input.folder, "latent_map.svg", "image/svg+xml", result.latent_map_svg, output));
+                              artifacts::PackModel(std::move(trained.model)), output));
+  for (const pipeline::TrainedModel::File& file : trained.files) {
+    POISE_RETURN_IF_ERROR(Write(input.folder, file.name, file.media_type, file.bytes, output));
   }
   return output;
 }

@@ -17,61 +17,102 @@ import torch
 from torch import nn
 from torch.nn.utils.rnn import pack_padded_sequence, pad_packed_sequence
 
-WIDTH, LATENT, HIDDEN, EMBEDDING, LENGTH_HIDDEN, CLOCK = 99, 128, 256, 128, 32, 4
+WIDTH, LATENT, EMBEDDING, LENGTH_HIDDEN = 99, 128, 128, 32
+HIDDEN = 128  # of main
+CLOCK = {"frames": 6, "lstm": 4}
 
 
 def two_layers(inputs, hidden, outputs):
     return nn.Sequential(nn.Linear(inputs, hidden), nn.ReLU(), nn.Linear(hidden, outputs))
 
 
-class Reader(nn.Module):
-    """Slab norm, embedding and the bidirectional LSTM of encoder and sequence discriminator."""
+def make_clock(frames, frequencies):
+    turns = 2.0 ** torch.arange(frequencies)
+    angles = torch.pi / frames * torch.arange(frames)[:, None] * turns[None]
+    return torch.cat([angles.sin(), angles.cos()], 1)
 
-    def __init__(self, frames):
+
+class FrameLayers(nn.Module):
+    """Two layers that see one frame and the clock."""
+
+    def __init__(self, clock):
+        super().__init__()
+        self.ticks = clock
+        self.first = nn.Linear(EMBEDDING, HIDDEN)
+        self.clock = nn.Linear(clock.shape[1], HIDDEN, bias=False)
+        self.second = nn.Linear(HIDDEN, HIDDEN)
+
+    def forward(self, inputs):
+        return torch.relu(self.second(torch.relu(self.first(inputs) + self.clock(self.ticks))))
+
+
+class Reader(nn.Module):
+    """What encoder and sequence discriminator read of each frame."""
+
+    def __init__(self, frames, layers):
         super().__init__()
         self.norm = nn.LayerNorm((frames, WIDTH))
-        self.embed = nn.Linear(WIDTH, EMBEDDING)
-        self.lstm = nn.LSTM(EMBEDDING, HIDDEN, batch_first=True, bidirectional=True)
+        self.is_lstm = layers == "lstm"
+        if self.is_lstm:
+            self.outputs = 2 * HIDDEN
+            self.embed = nn.Linear(WIDTH, EMBEDDING)
+            self.lstm = nn.LSTM(EMBEDDING, HIDDEN, batch_first=True, bidirectional=True)
+        else:
+            self.outputs = HIDDEN
+            self.embed = nn.Linear(2 * WIDTH, EMBEDDING)
+            self.layers = FrameLayers(make_clock(frames, CLOCK[layers]))
 
     def forward(self, poses, lengths):
-        inputs = torch.relu(self.embed(self.norm(poses)))
-        packed = pack_padded_sequence(inputs, lengths, batch_first=True, enforce_sorted=False)
-        return pad_packed_sequence(self.lstm(packed)[0], batch_first=True, total_length=poses.shape[1])[0]
+        normed = self.norm(poses)
+        if self.is_lstm:
+            inputs = torch.relu(self.embed(normed))
+            packed = pack_padded_sequence(inputs, lengths, batch_first=True, enforce_sorted=False)
+            return pad_packed_sequence(self.lstm(packed)[0], batch_first=True, total_length=poses.shape[1])[0]
+        change = 10 * (torch.cat([normed[:, 1:], normed[:, -1:]], 1) - normed)
+        said = self.layers(torch.relu(self.embed(torch.cat([normed, change], 2))))
+        return said * (torch.arange(poses.shape[1])[None] < lengths[:, None]).float()[..., None]
 
 
 class Vae(nn.Module):
-    def __init__(self, frames):
+    def __init__(self, frames, layers):
         super().__init__()
         self.frames = frames
-        self.reader = Reader(frames)
-        self.mean = two_layers(2 * HIDDEN, HIDDEN, LATENT)
-        self.log_variance = two_layers(2 * HIDDEN, HIDDEN, LATENT)
+        self.reader = Reader(frames, layers)
+        self.mean = two_layers(self.reader.outputs, HIDDEN, LATENT)
+        self.log_variance = two_layers(self.reader.outputs, HIDDEN, LATENT)
         self.embed = nn.Linear(LATENT, EMBEDDING)
-        self.lstm = nn.LSTM(EMBEDDING + 2 * CLOCK, HIDDEN, batch_first=True)
+        self.is_lstm = layers == "lstm"
+        self.clock = make_clock(frames, CLOCK[layers])
+        if self.is_lstm:
+            self.lstm = nn.LSTM(EMBEDDING + 2 * CLOCK[layers], HIDDEN, batch_first=True)
+        else:
+            self.layers = FrameLayers(self.clock)
         self.pose = two_layers(HIDDEN, EMBEDDING, WIDTH)
         self.length = two_layers(LATENT, LENGTH_HIDDEN, 1)
-        turns = 2.0 ** torch.arange(CLOCK)
-        angles = torch.pi / frames * torch.arange(frames)[:, None] * turns[None]
-        self.clock = torch.cat([angles.sin(), angles.cos()], 1)
 
     def encode(self, poses, lengths):
         average = self.reader(poses, lengths).sum(1) / lengths[:, None]
         return self.mean(average), self.log_variance(average)
 
     def decode(self, z):
-        inputs = torch.relu(self.embed(z))[:, None].expand(-1, self.frames, -1)
+        inputs = torch.relu(self.embed(z))[:, None]
+        if not self.is_lstm:
+            return self.pose(self.layers(inputs))
         clock = self.clock[None].expand(z.shape[0], -1, -1)
+        inputs = inputs.expand(-1, self.frames, -1)
         return self.pose(self.lstm(torch.cat([inputs, clock], 2))[0])
 
 
 class SequenceDiscriminator(nn.Module):
-    def __init__(self, frames):
+    def __init__(self, frames, layers):
         super().__init__()
-        self.reader = Reader(frames)
-        self.verdict = two_layers(2 * HIDDEN, EMBEDDING, 1)
+        self.reader = Reader(frames, layers)
+        self.verdict = two_layers(self.reader.outputs, EMBEDDING, 1)
 
     def forward(self, poses, lengths):
         outputs = self.reader(poses, lengths)
+        if not self.reader.is_lstm:
+            return self.verdict(outputs.sum(1) / lengths[:, None])
         last = (lengths - 1).view(-1, 1, 1).expand(-1, 1, HIDDEN)
         forward = outputs[..., :HIDDEN].gather(1, last).squeeze(1)
         return self.verdict(torch.cat([forward, outputs[:, 0, HIDDEN:]], 1))
@@ -100,12 +141,12 @@ def hinge(real, made):
 
 
 class Loop:
-    def __init__(self, frames, lengths, batch):
+    def __init__(self, frames, lengths, batch, layers):
         torch.manual_seed(1)
         self.frames, self.lengths, self.batch = frames, lengths, batch
-        self.vae = Vae(frames)
+        self.vae = Vae(frames, layers)
         self.frame_judge = two_layers(WIDTH, EMBEDDING, 1)
-        self.sequence_judge = SequenceDiscriminator(frames)
+        self.sequence_judge = SequenceDiscriminator(frames, layers)
         self.vae_optimizer = torch.optim.Adam(self.vae.parameters(), 1e-3)
         self.optimizers = [torch.optim.Adam(net.parameters(), 1e-4, (0.5, 0.999))
                            for net in (self.frame_judge, self.sequence_judge)]
@@ -150,12 +191,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--frames", type=int, required=True)
     parser.add_argument("--lengths", required=True, help="of the training motions, with commas")
-    parser.add_argument("--batch", type=int, default=32)
+    parser.add_argument("--batch", type=int, default=8)
     parser.add_argument("--steps", type=int, default=10)
     parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--layers", choices=["frames", "lstm"], default="frames")
+    parser.add_argument("--hidden", type=int, default=HIDDEN)
     args = parser.parse_args()
+    globals()["HIDDEN"] = args.hidden
     torch.set_num_threads(args.threads)
-    loop = Loop(args.frames, [int(length) for length in args.lengths.split(",")], args.batch)
+    loop = Loop(args.frames, [int(length) for length in args.lengths.split(",")], args.batch,
+                args.layers)
     loop.step()
     began = time.perf_counter()
     for _ in range(args.steps):

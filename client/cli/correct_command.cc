@@ -36,6 +36,7 @@ constexpr char kFooter[] =
     "  poise correct *.bvh --method none --effort instant --json > report.jsonl\n"
     "  poise correct kick.bvh -n 100 --max-seconds 60 --out corrected\n"
     "  poise correct kick.bvh --method vae --model kick -n 20\n"
+    "  poise correct kick.bvh --debias kick-habits -n 20\n"
     "  poise correct kick.bvh --detach          # poise jobs watch, poise jobs result\n"
     "  poise correct kick.bvh --set learning.rollouts=40 --set ik.radius_high=1.1\n\n"
     "Exit code: 0 SUCCEEDED, 8 a job FAILED, 6 CANCELLED. A variant that was not completed is no "
@@ -112,13 +113,13 @@ StatusOr<api::Job> CreateJob(const CorrectOptions& options, const Source& source
                            .seed = options.seed});
 }
 
-// Pins the model: the job has the network that the name meant when it was submitted.
-Status PinModel(client::Client& client, api::CorrectSpec& spec) {
-  if (spec.model.empty()) return absl::OkStatus();
-  POISE_ASSIGN_OR_RETURN(const api::Model model, client.GetModel(spec.model));
-  spec.model = model.name + "@" + model.version;
-  POISE_ASSIGN_OR_RETURN(const client::StoredArtifact stored, client.ExportModel(spec.model));
-  spec.model_artifact = stored.name;
+// Pins a model: the job has the network that the name meant when it was submitted.
+Status PinModel(client::Client& client, std::string& name, std::string& artifact) {
+  if (name.empty()) return absl::OkStatus();
+  POISE_ASSIGN_OR_RETURN(const api::Model model, client.GetModel(name));
+  name = model.name + "@" + model.version;
+  POISE_ASSIGN_OR_RETURN(const client::StoredArtifact stored, client.ExportModel(name));
+  artifact = stored.name;
   return absl::OkStatus();
 }
 
@@ -211,7 +212,9 @@ Status RunCorrect(CorrectOptions& options, const Console& console) {
   }
   POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options.connection));
   if (follower) POISE_RETURN_IF_ERROR(MakeFolder(options.out));
-  POISE_RETURN_IF_ERROR(PinModel(*client, options.spec));
+  api::CorrectSpec& spec = options.spec;
+  POISE_RETURN_IF_ERROR(PinModel(*client, spec.model, spec.model_artifact));
+  POISE_RETURN_IF_ERROR(PinModel(*client, spec.debias, spec.debias_artifact));
   std::vector<CorrectedClip> clips;
   for (const Source& source : sources) {
     StatusOr<api::Job> job = CreateJob(options, source, *client);
@@ -242,6 +245,11 @@ void AddSpecFlags(CLI::App& command, CorrectOptions& options) {
       ->type_name("NAME")
       ->capture_default_str();
   command.add_option("--model", spec.model, "The network of step vae: NAME or NAME@VERSION")
+      ->type_name("MODEL");
+  command
+      .add_option("--debias", spec.debias,
+                  "A network of poise train debias, which undoes what imitation changes: NAME or "
+                  "NAME@VERSION")
       ->type_name("MODEL");
   command
       .add_option("-n,--variants", spec.variants_per_source,

@@ -48,6 +48,16 @@ constexpr char kPushFooter[] =
     "Examples:\n"
     "  poise train push --data ~/fzj_push --name push-mine --seed 1\n"
     "  poise train push --data ~/fzj_push --name push-a --set protocol=A --detach";
+constexpr char kDebiasDescription[] =
+    "Train the network that undoes what imitation changes about the motions of one class.\n\n"
+    "A simulated body imitates every clip; the network learns the way back, frame by frame, and "
+    "poise correct --debias applies it. The actor of --hold-out is not learned from; how near to "
+    "the originals his motions are before and after stands in the model's card. Settings: preset "
+    "recommended or paper, then --set (effort, correction: which imitation).";
+constexpr char kDebiasFooter[] =
+    "Examples:\n"
+    "  poise train debias --data hdm05 --class kick --hold-out tr --name kick-habits --seed 1\n"
+    "  poise train debias --data hdm05 --class kick --name kick-habits --set effort=fast";
 constexpr const char* kModelFile = "model.safetensors";
 
 struct TrainOptions {
@@ -159,11 +169,13 @@ void AddClipFlags(CLI::App& command, TrainOptions& options) {
   AddTrainingFlags(command, options);
 }
 
-Command AddVae(CLI::App& train, const Console& console) {
+// A training that the clips and its settings say all about.
+Command AddOnClips(CLI::App& train, const Console& console, const char* name, const char* kind,
+                   const char* description, const char* footer) {
   auto options = std::make_shared<TrainOptions>();
-  options->kind = "train_vae";
-  CLI::App* command = train.add_subcommand("vae", kVaeDescription);
-  command->footer(kVaeFooter);
+  options->kind = kind;
+  CLI::App* command = train.add_subcommand(name, description);
+  command->footer(footer);
   AddClipFlags(*command, *options);
   AddConnectionFlags(*command, options->connection);
   return {command, [options, &console] { return TrainOnClips(*options, console); }};
@@ -202,7 +214,9 @@ Command AddPush(CLI::App& train, const Console& console) {
 std::vector<Command> AddTrainCommands(CLI::App& app, const Console& console) {
   CLI::App* train = app.add_subcommand("train", kDescription);
   train->footer("Example:\n  poise train vae --data hdm05 --class kick --name kick");
-  return {AddVae(*train, console), AddPredictor(*train, console), AddPush(*train, console)};
+  return {AddOnClips(*train, console, "vae", "train_vae", kVaeDescription, kVaeFooter),
+          AddOnClips(*train, console, "debias", "train_debias", kDebiasDescription, kDebiasFooter),
+          AddPredictor(*train, console), AddPush(*train, console)};
 }
 
 }  // namespace poise::cli

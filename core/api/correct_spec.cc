@@ -105,6 +105,8 @@ std::vector<base::Field> CorrectSpec::Fields() {
       base::Text("action_class", &action_class),
       base::Text("model", &model),
       base::Text("model_artifact", &model_artifact),
+      base::Text("debias", &debias),
+      base::Text("debias_artifact", &debias_artifact),
       base::Number("variants_per_source", &variants_per_source, 0, kMaxVariants),
       base::Text("effort", &effort, {"instant", "fast", "full"}),
       base::Text("preset", &preset, {"recommended", "paper"}),

@@ -26,6 +26,9 @@ struct CorrectSpec {
   std::string model = {};
   /// The network itself, "artifacts/<sha256>": the same whatever the name comes to mean.
   std::string model_artifact = {};
+  /// The network that undoes the character's habits, likewise; empty: none.
+  std::string debias = {};
+  std::string debias_artifact = {};
   /// [0 to kMaxVariants] 0: 1 with the method none, else 20. With none no more than 1.
   int variants_per_source = 0;
   /// How hard each correction tries: instant (no learning) | fast (a few rollouts) | full (a policy

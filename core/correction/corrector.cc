@@ -7,7 +7,7 @@
 namespace poise::correction {
 
 StatusOr<Corrector> Corrector::Create(const motion::Clip& source, const motion::JointRoles& roles,
-                                      const CorrectionConfig& config) {
+                                      const CorrectionConfig& config, DebiaserPtr debiaser) {
   CorrectionConfig checked = config;
   POISE_RETURN_IF_ERROR(base::CheckRanges(checked.Fields()));
   POISE_ASSIGN_OR_RETURN(const motion::Clip reduced,
@@ -16,7 +16,7 @@ StatusOr<Corrector> Corrector::Create(const motion::Clip& source, const motion::
                          motion::ReducedRoles(*reduced.skeleton()));
   POISE_ASSIGN_OR_RETURN(physics::HumanoidModelPtr model,
                          physics::HumanoidModel::Create(reduced, reduced_roles, config.humanoid));
-  return Corrector(source.skeleton(), roles, std::move(model), config);
+  return Corrector(source.skeleton(), roles, std::move(model), config, std::move(debiaser));
 }
 
 StatusOr<ReferenceMotion> Corrector::Reference(const motion::Clip& variant) const {
@@ -43,11 +43,13 @@ StatusOr<Correction> Corrector::Assess(const motion::Clip& variant,
                                        const ReferenceMotion& reference,
                                        const Recording& recording) const {
   POISE_ASSIGN_OR_RETURN(const motion::Plausibility before, AssessReference(reference));
-  POISE_ASSIGN_OR_RETURN(
-      const motion::Plausibility after,
-      motion::AssessPlausibility(recording.clip, model_->shapes(), /*floor_height_m=*/0));
-  POISE_ASSIGN_OR_RETURN(motion::Clip clip,
-                         motion::ExpandFromRoles(recording.clip, variant, roles_));
+  motion::Clip done = recording.clip;
+  if (debiaser_ != nullptr) {
+    POISE_ASSIGN_OR_RETURN(done, debiaser_->Apply(recording.clip, *model_));
+  }
+  POISE_ASSIGN_OR_RETURN(const motion::Plausibility after,
+                         motion::AssessPlausibility(done, model_->shapes(), /*floor_height_m=*/0));
+  POISE_ASSIGN_OR_RETURN(motion::Clip clip, motion::ExpandFromRoles(done, variant, roles_));
   return Correction{.clip = std::move(clip),
                     .score = recording.score,
                     .effort = config_.effort,
@@ -57,13 +59,18 @@ StatusOr<Correction> Corrector::Assess(const motion::Clip& variant,
                     .after = after};
 }
 
-StatusOr<Correction> Corrector::Correct(const motion::Clip& variant,
-                                        const base::RunContext& context) const {
-  POISE_ASSIGN_OR_RETURN(const ReferenceMotion reference, Reference(variant));
+StatusOr<Learned> Corrector::Imitate(const ReferenceMotion& reference,
+                                     const base::RunContext& context) const {
   POISE_ASSIGN_OR_RETURN(MotionTracker tracker, Tracker(reference.frame_rate()));
   LearningConfig learning = config_.learning;
   if (config_.effort == "instant") learning.rollouts = 1;
-  POISE_ASSIGN_OR_RETURN(Learned learned, LearnIteratively(tracker, reference, learning, context));
+  return LearnIteratively(tracker, reference, learning, context);
+}
+
+StatusOr<Correction> Corrector::Correct(const motion::Clip& variant,
+                                        const base::RunContext& context) const {
+  POISE_ASSIGN_OR_RETURN(const ReferenceMotion reference, Reference(variant));
+  POISE_ASSIGN_OR_RETURN(Learned learned, Imitate(reference, context));
   POISE_ASSIGN_OR_RETURN(Correction correction, Assess(variant, reference, learned.best));
   correction.rollouts = std::move(learned.scores);
   correction.timed_out = learned.timed_out;

@@ -3,6 +3,8 @@
 
 #include "core/base/run_context.h"
 #include "core/correction/correction_config.h"
+#include "core/correction/debias/debiaser.h"
+#include "core/correction/tracking/iterative_learning.h"
 #include "core/correction/tracking/motion_tracker.h"
 #include "core/motion/metrics/plausibility.h"
 
@@ -28,10 +30,12 @@ struct Correction {
 /// Threads: Correct may be called from several threads; each call has its own world.
 class Corrector {
  public:
+  /// With a debiaser, what the body did is debiased before it is measured.
   /// Errors: kFailedPrecondition MISSING_ROLES, UNUSUAL_HIERARCHY; kInvalidArgument
   /// CONFIG_VALUE_OUT_OF_RANGE.
   static StatusOr<Corrector> Create(const motion::Clip& source, const motion::JointRoles& roles,
-                                    const CorrectionConfig& config = {});
+                                    const CorrectionConfig& config = {},
+                                    DebiaserPtr debiaser = nullptr);
 
   /// `variant` has the source's skeleton. A motion that could not be completed is a result, with
   /// score.completed false; its clip shows the fall.
@@ -43,6 +47,9 @@ class Corrector {
   /// The steps of Correct, for whoever tracks in another way.
   /// The variant as the character is to imitate it. Errors: WRONG_SKELETON, CLIP_TOO_SHORT.
   StatusOr<ReferenceMotion> Reference(const motion::Clip& variant) const;
+  /// What the character makes of it, with the config's effort. Errors: as Correct.
+  StatusOr<Learned> Imitate(const ReferenceMotion& reference,
+                            const base::RunContext& context = {}) const;
   /// Of references at this rate.
   StatusOr<MotionTracker> Tracker(double frame_rate) const;
   /// Correction::before: how plausible it looks by the character's own bodies.
@@ -57,16 +64,18 @@ class Corrector {
 
  private:
   Corrector(motion::SkeletonPtr skeleton, motion::JointRoles roles, physics::HumanoidModelPtr model,
-            const CorrectionConfig& config)
+            const CorrectionConfig& config, DebiaserPtr debiaser)
       : skeleton_(std::move(skeleton)),
         roles_(std::move(roles)),
         model_(std::move(model)),
-        config_(config) {}
+        config_(config),
+        debiaser_(std::move(debiaser)) {}
 
   motion::SkeletonPtr skeleton_;
   motion::JointRoles roles_;
   physics::HumanoidModelPtr model_;  // on the reduced skeleton
   CorrectionConfig config_;
+  DebiaserPtr debiaser_;  // none: nothing is debiased
 };
 
 }  // namespace poise::correction

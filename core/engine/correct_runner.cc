@@ -22,14 +22,30 @@ namespace {
 using pipeline::CorrectedVariant;
 using pipeline::CorrectState;
 
-/// Checkpoints may take this part of the time; more than that, and they wait for the interval.
-constexpr double kCheckpointShare = 0.05;
-
 StatusOr<api::CorrectSpec> SpecOf(const base::Json& parameters) {
   StatusOr<api::CorrectSpec> spec = api::CorrectSpec::FromJson(parameters);
   const Status status = spec.ok() ? pipeline::CheckCorrect(*spec) : spec.status();
   if (!status.ok()) return base::Annotate(status, "correct", "spec.parameters");
   return spec;
+}
+
+// The model that a spec names in the field `field`.
+StatusOr<artifacts::ModelArtifact> ReadModel(const std::string& artifact, const std::string& name,
+                                             const std::string& field,
+                                             const jobs::RunInput& input) {
+  POISE_ASSIGN_OR_RETURN(const std::string bytes, ReadInput(input, artifact, field));
+  StatusOr<artifacts::ModelArtifact> model = artifacts::UnpackModel(bytes, name);
+  if (!model.ok()) return base::Annotate(model.status(), "model", field);
+  return model;
+}
+
+// None where the spec names none.
+StatusOr<correction::DebiaserPtr> ReadDebiaser(const api::CorrectSpec& spec,
+                                               const jobs::RunInput& input) {
+  if (spec.debias_artifact.empty()) return correction::DebiaserPtr();
+  POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
+                         ReadModel(spec.debias_artifact, spec.debias, "debias_artifact", input));
+  return correction::Debiaser::Create(model);
 }
 
 StatusOr<CatalogClip> ReadSource(const api::ClipSource& source, const jobs::RunInput& input) {
@@ -110,11 +126,9 @@ StatusOr<pipeline::MotionDecoderPtr> CorrectRunner::Decoder(const api::CorrectSp
   if (!load_decoder_) {
     return base::FailedPrecondition("NO_NETWORKS", "model", "this program evaluates no networks");
   }
-  POISE_ASSIGN_OR_RETURN(const std::string bytes,
-                         ReadInput(input, spec.model_artifact, "model_artifact"));
-  StatusOr<artifacts::ModelArtifact> model = artifacts::UnpackModel(bytes, spec.model);
-  if (!model.ok()) return base::Annotate(model.status(), "model", "model_artifact");
-  return load_decoder_(*model);
+  POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
+                         ReadModel(spec.model_artifact, spec.model, "model_artifact", input));
+  return load_decoder_(model);
 }
 
 StatusOr<jobs::RunOutput> CorrectRunner::Run(const jobs::RunInput& input,
@@ -122,9 +136,11 @@ StatusOr<jobs::RunOutput> CorrectRunner::Run(const jobs::RunInput& input,
   POISE_ASSIGN_OR_RETURN(const api::CorrectSpec spec, SpecOf(input.spec.parameters));
   POISE_ASSIGN_OR_RETURN(Sources sources, ReadSources(spec, input));
   POISE_ASSIGN_OR_RETURN(pipeline::MotionDecoderPtr decoder, Decoder(spec, input));
-  POISE_ASSIGN_OR_RETURN(const auto flow,
-                         pipeline::CorrectFlow::Create(spec, input.seed, std::move(sources.clips),
-                                                       {make_learner_, std::move(decoder)}));
+  POISE_ASSIGN_OR_RETURN(correction::DebiaserPtr debiaser, ReadDebiaser(spec, input));
+  POISE_ASSIGN_OR_RETURN(
+      const auto flow,
+      pipeline::CorrectFlow::Create(spec, input.seed, std::move(sources.clips),
+                                    {make_learner_, std::move(decoder), std::move(debiaser)}));
   CorrectState state = CorrectState::Empty(*flow);
   if (input.checkpoint) {
     POISE_ASSIGN_OR_RETURN(state, DecodeCheckpoint(*input.checkpoint, std::move(state)));

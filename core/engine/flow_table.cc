@@ -8,6 +8,7 @@
 #include "core/engine/evaluate_push_runner.h"
 #include "core/pipeline/predictor_evaluation.h"
 #include "core/pipeline/push_learning_spec.h"
+#include "core/pipeline/train_debias_spec.h"
 #include "core/pipeline/train_predictor_spec.h"
 #include "core/pipeline/train_vae_spec.h"
 #include "core/runtime/jobs/selftest_config.h"
@@ -36,6 +37,8 @@ const std::vector<Flow>& FlowTable() {
        MakeEvaluatePushRunner},
       {"train_vae", "a variational autoencoder of one class's motions",
        Validate<pipeline::TrainVaeSpec>, nullptr, nullptr, /*trains=*/true},
+      {"train_debias", "undoes what imitation changes about a class's motions",
+       Validate<pipeline::TrainDebiasSpec>, nullptr, nullptr, /*trains=*/true},
       {"train_predictor", "a network that says what comes next in a motion",
        Validate<pipeline::TrainPredictorSpec>, nullptr, nullptr, /*trains=*/true},
       {"evaluate_predictor", "how far predictions are from what came, beside the floors",

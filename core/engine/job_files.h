@@ -9,6 +9,9 @@
 /// Files that runners of jobs read and write.
 namespace poise::engine {
 
+/// Checkpoints may take this part of a job's time; more than that, and they wait for the interval.
+inline constexpr double kCheckpointShare = 0.05;
+
 /// The bytes of an artifact that the job's parameters name; `field` is the parameter that does.
 /// Errors: kNotFound INPUT_NOT_FOUND with the field.
 StatusOr<std::string> ReadInput(const jobs::RunInput& input, const std::string& artifact,

@@ -5,6 +5,7 @@
 #include "core/engine/training_runner.h"
 #include "core/pipeline/load_decoder.h"
 #include "core/pipeline/make_policy_learner.h"
+#include "core/pipeline/train_debias.h"
 #include "core/pipeline/train_predictor.h"
 #include "core/pipeline/train_push.h"
 #include "core/pipeline/train_vae.h"
@@ -16,9 +17,10 @@ StatusOr<std::unique_ptr<jobs::JobRunner>> MakeRunner(std::string_view kind) {
   if (kind == "correct")
     return std::make_unique<CorrectRunner>(pipeline::MakePolicyLearner, pipeline::LoadDecoder);
   if (flow->make_runner != nullptr) return flow->make_runner();
+  if (kind == "train_predictor") return std::make_unique<TrainingRunner>(pipeline::TrainPredictor);
   if (kind == "train_push") return std::make_unique<TrainingRunner>(pipeline::TrainPush);
-  return std::make_unique<TrainingRunner>(kind == "train_vae" ? pipeline::TrainVae
-                                                              : pipeline::TrainPredictor);
+  if (kind == "train_debias") return std::make_unique<TrainingRunner>(pipeline::TrainDebias);
+  return std::make_unique<TrainingRunner>(pipeline::TrainVae);
 }
 
 }  // namespace poise::engine

@@ -15,9 +15,10 @@ StatusOr<jobs::RunOutput> TrainingRunner::Run(const jobs::RunInput& input,
       ReadInput(input, parameters.value("data_artifact", ""), "spec.parameters.data_artifact"));
   base::RunContext run = context.run;
   run.seed = input.seed;
-  POISE_ASSIGN_OR_RETURN(pipeline::TrainedModel trained,
-                         train_(parameters, clips, run, input.checkpoint,
-                                {context.checkpoint_interval, context.save_checkpoint}));
+  POISE_ASSIGN_OR_RETURN(
+      pipeline::TrainedModel trained,
+      train_(parameters, clips, run, input.checkpoint,
+             {context.checkpoint_interval, context.save_checkpoint, kCheckpointShare}));
   jobs::RunOutput output;
   output.report = {{"scores", trained.model.card.scores},
                    {"trained_on", trained.model.card.trained_on},

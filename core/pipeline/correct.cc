@@ -72,13 +72,17 @@ struct Source {
   std::unique_ptr<PolicyLearner> learner = {};  // once Learn made it
 };
 
-StatusOr<Source> MakeSource(ResolvedSource resolved, const CorrectionConfig& config) {
-  const auto create = [&](const CorrectionConfig& wanted) {
-    return Corrector::Create(resolved.clip, resolved.roles, wanted);
+StatusOr<Source> MakeSource(ResolvedSource resolved, const CorrectionConfig& config,
+                            const std::string& debias, const correction::DebiaserPtr& debiaser) {
+  const auto create = [&](const CorrectionConfig& wanted, correction::DebiaserPtr with) {
+    return Corrector::Create(resolved.clip, resolved.roles, wanted, std::move(with));
   };
-  POISE_ASSIGN_OR_RETURN(Corrector corrector, create(config));
-  POISE_ASSIGN_OR_RETURN(Corrector quick, create(WithoutLearning(config)));
-  POISE_ASSIGN_OR_RETURN(Corrector zero, create(ZeroPolicyConfig(config)));
+  if (debiaser != nullptr) {
+    POISE_RETURN_IF_ERROR(debiaser->CheckFits(debias, resolved.clip, resolved.roles));
+  }
+  POISE_ASSIGN_OR_RETURN(Corrector corrector, create(config, debiaser));
+  POISE_ASSIGN_OR_RETURN(Corrector quick, create(WithoutLearning(config), debiaser));
+  POISE_ASSIGN_OR_RETURN(Corrector zero, create(ZeroPolicyConfig(config), nullptr));
   return Source{std::move(resolved), std::move(corrector), std::move(quick), std::move(zero)};
 }
 
@@ -189,7 +193,8 @@ StatusOr<std::unique_ptr<CorrectFlow>> CorrectFlow::Create(const api::CorrectSpe
   for (ResolvedSource& source : sources) {
     const std::string field = fmt::format("sources[{}]", made.size());
     const std::string clip = fmt::format("clip '{}'", source.clip.name());
-    StatusOr<Source> one = MakeSource(std::move(source), settings.correction);
+    StatusOr<Source> one =
+        MakeSource(std::move(source), settings.correction, spec.debias, networks.debiaser);
     if (!one.ok()) return base::Annotate(one.status(), clip, field);
     made.push_back(*std::move(one));
   }

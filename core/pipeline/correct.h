@@ -11,6 +11,7 @@
 #include "core/api/correct_spec.h"
 #include "core/api/correction_report.h"
 #include "core/base/run_context.h"
+#include "core/correction/debias/debiaser.h"
 #include "core/correction/policy_learner.h"
 #include "core/motion/clip.h"
 #include "core/pipeline/augment.h"
@@ -40,10 +41,11 @@ struct LearnedPolicy {
 /// Makes the learner of effort full; made by a target that links LibTorch (make_policy_learner.h).
 using PolicyLearnerFactory = correction::PolicyLearnerFactory;
 
-/// What only some requests need, and what takes LibTorch to make (poise_training).
+/// What only some requests need. The first two take LibTorch to make (poise_training).
 struct CorrectNetworks {
-  PolicyLearnerFactory make_learner = {};  ///< effort full
-  MotionDecoderPtr decoder = nullptr;      ///< step "vae" of the method
+  PolicyLearnerFactory make_learner = {};      ///< effort full
+  MotionDecoderPtr decoder = nullptr;          ///< step "vae" of the method
+  correction::DebiaserPtr debiaser = nullptr;  ///< undoes the character's habits; none: nothing
 };
 
 /// The correction flow: variants of clips, made by AugmentFlow and imitated by a simulated body,
@@ -56,7 +58,8 @@ class CorrectFlow {
  public:
   /// `seed` is that of the variants. Errors: those of CheckCorrect, AugmentFlow::Create and
   /// Corrector::Create; of a clip with the field "sources[i]"; kFailedPrecondition NO_NETWORKS
-  /// when a policy is to be learned and nothing makes a learner.
+  /// when a policy is to be learned and nothing makes a learner; SIGNATURE_MISMATCH when a source
+  /// cannot be debiased.
   static StatusOr<std::unique_ptr<CorrectFlow>> Create(const api::CorrectSpec& spec, uint64_t seed,
                                                        std::vector<ResolvedSource> sources,
                                                        CorrectNetworks networks = {});

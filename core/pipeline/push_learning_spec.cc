@@ -35,9 +35,7 @@ StatusOr<TrainPushSpec> TrainPushSpec::FromParameters(const base::Json& paramete
 }
 
 StatusOr<push::PushTraining> TrainPushSpec::Config() const {
-  POISE_ASSIGN_OR_RETURN(auto config, ConfigOf<push::PushTraining>());
-  POISE_RETURN_IF_ERROR(config.Validate());
-  return config;
+  return ConfigOf<push::PushTraining>();
 }
 
 StatusOr<EvaluatePushSpec> EvaluatePushSpec::FromParameters(const base::Json& parameters) {

@@ -10,10 +10,4 @@ StatusOr<TrainPredictorSpec> TrainPredictorSpec::FromParameters(const base::Json
   return spec;
 }
 
-StatusOr<prediction::PredictorTraining> TrainPredictorSpec::Config() const {
-  POISE_ASSIGN_OR_RETURN(auto config, ConfigOf<prediction::PredictorTraining>());
-  POISE_RETURN_IF_ERROR(config.Validate());
-  return config;
-}
-
 }  // namespace poise::pipeline

@@ -14,9 +14,10 @@ struct TrainPredictorSpec : TrainingSpec {
   /// Errors: those of ReadTrainingSpec and Config, with a field below "spec.parameters".
   static StatusOr<TrainPredictorSpec> FromParameters(const base::Json& parameters);
 
-  /// The preset with the overrides. Errors: kInvalidArgument UNKNOWN_PRESET, those of
-  /// ApplyOverrides and PredictorTraining::Validate.
-  StatusOr<prediction::PredictorTraining> Config() const;
+  /// Errors: those of ConfigOf.
+  StatusOr<prediction::PredictorTraining> Config() const {
+    return ConfigOf<prediction::PredictorTraining>();
+  }
 };
 
 }  // namespace poise::pipeline

@@ -11,8 +11,7 @@ struct TrainVaeSpec : TrainingSpec {
   /// Errors: those of ReadTrainingSpec and Config, with a field below "spec.parameters".
   static StatusOr<TrainVaeSpec> FromParameters(const base::Json& parameters);
 
-  /// The preset with the overrides. Errors: kInvalidArgument UNKNOWN_PRESET, those of
-  /// ApplyOverrides.
+  /// Errors: those of ConfigOf.
   StatusOr<synthesis::VaeConfig> Config() const { return ConfigOf<synthesis::VaeConfig>(); }
 };
 

@@ -27,12 +27,13 @@ struct TrainingSpec {
   std::string DataFingerprint() const;
   /// "class kick, without actor tr".
   std::string TrainedOn() const;
-  /// The preset of a family's config with the overrides. Errors: those of Config::FromPreset and
-  /// ApplyOverrides.
+  /// The preset of a family's config with the overrides. Errors: kInvalidArgument UNKNOWN_PRESET,
+  /// those of ApplyOverrides and Config::Validate.
   template <typename Config>
   StatusOr<Config> ConfigOf() const {
     POISE_ASSIGN_OR_RETURN(Config config, Config::FromPreset(preset));
     POISE_RETURN_IF_ERROR(base::ApplyOverrides(overrides, config.Fields()));
+    POISE_RETURN_IF_ERROR(config.Validate());
     return config;
   }
 };

@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <random>
 
 #include "absl/time/clock.h"
 #include "client/client.h"
+#include "core/motion/dataset/clip_set_file.h"
 #include "tests/support/job_calls.h"
 #include "tests/support/job_cluster.h"
 #include "tests/support/process_inspection.h"
 #include "tests/support/sanitizer.h"
+#include "tests/support/test_clips.h"
 
 // A job whose processes are killed goes on from its last checkpoint and ends with the same bytes.
 namespace poise::testing {
@@ -139,27 +142,47 @@ TEST(JobResumeTest, AJobKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne)
   EXPECT_EQ(FaultOfHistory(resumed, *events), "");
 }
 
-// Variants of a kick of this project; `parameters` beside the source.
-StatusOr<api::CreateJob> Correction(const std::string& server, base::Json parameters) {
+// Completes the parameters of a job with what it works on, which it puts onto the server.
+using Uploader = std::function<Status(client::Client& client, base::Json& parameters)>;
+
+// A kick of this project.
+Status UploadKick(client::Client& client, base::Json& parameters) {
+  POISE_ASSIGN_OR_RETURN(const auto stored,
+                         client.UploadFile(std::string(POISE_SAMPLES_DIR) + "/kick.bvh"));
+  parameters["sources"] = {{{"artifact", stored.name}, {"name", "kick.bvh"}}};
+  return absl::OkStatus();
+}
+
+Status UploadSwings(client::Client& client, base::Json& parameters) {
+  motion::ClipSet set;
+  for (int i = 0; i < 4; ++i) {
+    set.clips.push_back({"swing", "a", SwingingClip(120 + 24 * i, 120, 0.3, i)});
+  }
+  POISE_ASSIGN_OR_RETURN(const auto stored, client.Upload(motion::EncodeClipSet(set)));
+  parameters["data_artifact"] = stored.name;
+  return absl::OkStatus();
+}
+
+StatusOr<api::CreateJob> Request(const std::string& server, const std::string& kind,
+                                 base::Json parameters, const Uploader& upload) {
   client::ClientOptions options;
   options.server = server;
   POISE_ASSIGN_OR_RETURN(const auto client, client::Client::Connect(options));
-  POISE_ASSIGN_OR_RETURN(const auto stored,
-                         client->UploadFile(std::string(POISE_SAMPLES_DIR) + "/kick.bvh"));
-  parameters["sources"] = {{{"artifact", stored.name}, {"name", "kick.bvh"}}};
+  POISE_RETURN_IF_ERROR(upload(*client, parameters));
   api::CreateJob request;
-  request.spec = {.kind = "correct", .parameters = std::move(parameters)};
+  request.spec = {.kind = kind, .parameters = std::move(parameters)};
   request.seed = 11;
   return request;
 }
 
-// Corrects with and without kills, and compares.
-void ExpectThatKillsChangeNothing(const base::Json& parameters, size_t files) {
+// Does a job with and without kills, and compares.
+void ExpectThatKillsChangeNothing(const std::string& kind, const base::Json& parameters,
+                                  const Uploader& upload, size_t files) {
   const int kills = FromEnvironment("POISE_RESUME_KILLS", 5);
   JobCluster cluster = NewCluster();
   cluster.StartWorker({"--queues", "calm", "--slots", "1"});
   const JobCalls calls(cluster.channel());
-  auto request = Correction(cluster.address(), parameters);
+  auto request = Request(cluster.address(), kind, parameters, upload);
   ASSERT_TRUE(request.ok()) << request.status();
   request->queue = "calm";
   const auto calm_job = calls.Create(*request);
@@ -186,20 +209,21 @@ void ExpectThatKillsChangeNothing(const base::Json& parameters, size_t files) {
   for (const api::JobAttempt& attempt : resumed.attempts) {
     steps += fmt::format(" {}-{}", attempt.from_step, attempt.last_step);
   }
-  std::printf("a correction of %.1f s, killed %zu times: %d attempts, steps%s of %ld\n", seconds,
-              done.size(), resumed.attempt, steps.c_str(),
+  std::printf("%s of %.1f s, killed %zu times: %d attempts, steps%s of %ld\n", kind.c_str(),
+              seconds, done.size(), resumed.attempt, steps.c_str(),
               static_cast<long>(resumed.progress.total));
 }
 
 TEST(JobResumeTest, ACorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne) {
   POISE_SKIP_WHERE_INSTRUMENTED();
-  ExpectThatKillsChangeNothing({{"variants_per_source", 20}}, 20);
+  ExpectThatKillsChangeNothing("correct", {{"variants_per_source", 20}}, UploadKick, 20);
 }
 
 // A small network that learns for some seconds, so that most kills come while it does.
 TEST(JobResumeTest, ALearnedCorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnUndisturbedOne) {
   POISE_SKIP_WHERE_INSTRUMENTED();
-  ExpectThatKillsChangeNothing({{"effort", "full"},
+  ExpectThatKillsChangeNothing("correct",
+                               {{"effort", "full"},
                                 {"variants_per_source", 2},
                                 {"overrides",
                                  {{"imitation.max_samples", "24000"},
@@ -210,7 +234,16 @@ TEST(JobResumeTest, ALearnedCorrectionKilledAtRandomMomentsEndsWithTheBytesOfAnU
                                   {"imitation.ppo.critic.hidden_layers", "32-32"},
                                   {"imitation.ppo.threads", "1"},
                                   {"learning.rollouts", "2"}}}},
-                               2);
+                               UploadKick, 2);
+}
+
+TEST(JobResumeTest, ATrainingKilledAtRandomMomentsEndsWithTheWeightsOfAnUndisturbedOne) {
+  POISE_SKIP_WHERE_INSTRUMENTED();
+  ExpectThatKillsChangeNothing(
+      "train_vae",
+      {{"action_class", "swing"},
+       {"set", {{"trainer.steps", "1200"}, {"trainer.batch_size", "8"}, {"net.hidden", "64"}}}},
+      UploadSwings, 4);
 }
 
 TEST(JobResumeTest, AJobOutlivesItsServerWithinTheLease) {

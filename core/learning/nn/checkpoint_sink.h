@@ -14,6 +14,9 @@ namespace poise::learning {
 struct CheckpointSink {
   absl::Duration interval = absl::InfiniteDuration();
   std::function<Status(std::string_view bytes, int64_t step)> save = {};
+  /// [0 to 1) Of the time, what checkpoints may take: while they take less, there is one also
+  /// before the interval is over.
+  double share = 0;
 };
 
 }  // namespace poise::learning

@@ -52,6 +52,7 @@ class Trainer::Implementation {
     began_ = last_report_ = last_checkpoint_ = Clock::now();
     first_step_ = state_.report.steps;
     seconds_before_ = state_.report.seconds;
+    checkpoint_seconds_ = 0;
     while (StopReason().empty()) {
       if (const Status stop = context.Check(); !stop.ok()) {
         POISE_RETURN_IF_ERROR(SaveCheckpoint(sink));
@@ -65,9 +66,7 @@ class Trainer::Implementation {
         POISE_RETURN_IF_ERROR(Validate());
       }
       if (SecondsSince(last_report_) >= kReportSeconds || done == config_.steps) Report(context);
-      if (Clock::now() - last_checkpoint_ >= absl::ToChronoNanoseconds(sink.interval)) {
-        POISE_RETURN_IF_ERROR(SaveCheckpoint(sink));
-      }
+      if (CheckpointIsDue(sink)) POISE_RETURN_IF_ERROR(SaveCheckpoint(sink));
     }
     state_.report.stopped_by = StopReason();
     return Finish();
@@ -188,11 +187,19 @@ class Trainer::Implementation {
     context.Report(progress);
   }
 
+  bool CheckpointIsDue(const CheckpointSink& sink) const {
+    if (Clock::now() - last_checkpoint_ >= absl::ToChronoNanoseconds(sink.interval)) return true;
+    return sink.share > 0 && checkpoint_seconds_ <= sink.share * SecondsSince(began_);
+  }
+
   Status SaveCheckpoint(const CheckpointSink& sink) {
-    last_checkpoint_ = Clock::now();
+    const Clock::time_point start = Clock::now();
+    last_checkpoint_ = start;
     if (!sink.save) return absl::OkStatus();
     POISE_ASSIGN_OR_RETURN(const std::string bytes, Checkpoint());
-    return sink.save(bytes, state_.report.steps);
+    POISE_RETURN_IF_ERROR(sink.save(bytes, state_.report.steps));
+    checkpoint_seconds_ += SecondsSince(start);
+    return absl::OkStatus();
   }
 
   StatusOr<TrainingReport> Finish() {
@@ -216,6 +223,7 @@ class Trainer::Implementation {
   Clock::time_point began_, last_report_, last_checkpoint_;
   int64_t first_step_ = 0;
   double seconds_before_ = 0;
+  double checkpoint_seconds_ = 0;  // that checkpoints took
 };
 
 Trainer::Trainer(std::unique_ptr<Implementation> implementation)

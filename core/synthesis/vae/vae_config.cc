@@ -11,8 +11,11 @@ constexpr double kMaxWeight = 1e6;
 
 VaeConfig Paper() {
   VaeConfig config;
+  config.net.layers = "lstm";
+  config.net.hidden = 256;
   config.net.clock = 0;
   config.root_unit = "authors";
+  config.start_at_mean = false;
   config.vae_optimizer = {.type = "sgd",
                           .learning_rate = 0.005,
                           .schedule = "step",
@@ -26,7 +29,8 @@ VaeConfig Paper() {
 }  // namespace
 
 std::vector<base::Field> VaeNetConfig::Fields() {
-  return {base::Number("latent", &latent, 1, kMaxUnits),
+  return {base::Text("layers", &layers, {"lstm", "frames"}),
+          base::Number("latent", &latent, 1, kMaxUnits),
           base::Number("hidden", &hidden, 1, kMaxUnits),
           base::Number("embedding", &embedding, 1, kMaxUnits),
           base::Number("length_hidden", &length_hidden, 1, kMaxUnits),
@@ -35,12 +39,12 @@ std::vector<base::Field> VaeNetConfig::Fields() {
 
 VaeConfig::VaeConfig()
     : vae_optimizer{.type = "adam",
-                    .learning_rate = 1e-3,
+                    .learning_rate = 2e-3,
                     .warmup_steps = 50,
                     .schedule = "cosine",
                     .clip_norm = 1},
       discriminator_optimizer{.type = "adam", .learning_rate = 1e-4, .beta1 = 0.5},
-      trainer{.steps = 2000, .batch_size = 32, .with_replacement = true} {}
+      trainer{.steps = 2000, .batch_size = 8, .with_replacement = true} {}
 
 StatusOr<VaeConfig> VaeConfig::FromPreset(std::string_view preset) {
   if (preset == "recommended") return VaeConfig();
@@ -55,6 +59,7 @@ std::vector<base::Field> VaeConfig::Fields() {
       base::Text("generator", &generator, {"vae", "gan"}),
       base::Number("frame_rate", &frame_rate, 1, 1000),
       base::Text("root_unit", &root_unit, {"standardised", "metres", "authors"}),
+      base::Flag("start_at_mean", &start_at_mean),
       base::Number("smoothness_weight", &smoothness_weight, 0, kMaxWeight),
       base::Number("kl_weight", &kl_weight, 0, kMaxWeight),
       base::Number("length_weight", &length_weight, 0, kMaxWeight),
@@ -72,6 +77,11 @@ std::vector<base::Field> VaeConfig::Fields() {
 Status VaeConfig::Validate() const {
   VaeConfig copy = *this;
   POISE_RETURN_IF_ERROR(base::CheckRanges(copy.Fields()));
+  if (net.layers == "frames" && net.clock == 0) {
+    return base::InvalidArgument("CONTRADICTING_SETTINGS", "net.clock",
+                                 "layers of single frames know the time by the clock alone: "
+                                 "net.clock must be 1 or more");
+  }
   if (generator == "gan" && !adversarial) {
     return base::InvalidArgument(
         "CONTRADICTING_SETTINGS", "adversarial",

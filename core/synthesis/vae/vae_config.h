@@ -13,13 +13,17 @@ namespace poise::synthesis {
 
 /// Sizes of the networks; part of what a model is.
 struct VaeNetConfig {
+  /// lstm: LSTMs that pass from frame to frame, as in the paper | frames: layers that see one
+  /// frame, its change to the next and the clock, so that all frames are one matrix product.
+  std::string layers = "frames";
   int latent = 128;        ///< [> 0] dimensions of z (MotionAug sec. 4.1)
-  int hidden = 256;        ///< [> 0] units of an LSTM, per direction
+  int hidden = 128;        ///< [> 0] units of a layer, or of an LSTM per direction (paper: 256)
   int embedding = 128;     ///< [> 0] of a pose before an LSTM or a frame's verdict
   int length_hidden = 32;  ///< [> 0] of the length estimator
-  /// [>= 0] Frequencies of a clock that the decoder's LSTM sees beside z: sine and cosine of 1, 2,
-  /// 4, ... half turns over the frames. 0: none, as in the paper, where the LSTM has to count.
-  int clock = 4;
+  /// [>= 0] Frequencies of the clock: sine and cosine of 1, 2, 4, ... half turns over the frames.
+  /// Of the LSTMs only the decoder's sees it, beside z; 0: none, as in the paper, where it has to
+  /// count. Layers of single frames need one.
+  int clock = 6;
 
   std::vector<base::Field> Fields();
 };
@@ -35,6 +39,9 @@ struct VaeConfig {
   /// Unit of the root position in input and loss: standardised (mean 0, deviation 1 of each axis
   /// over the training frames) | metres | authors (5 cm, in which it dominates the loss).
   std::string root_unit = "standardised";
+
+  /// Training begins at the mean pose and length of the training motions.
+  bool start_at_mean = true;
 
   double smoothness_weight = 0.001;      ///< [>= 0] second differences (reference sec. 2.4)
   double kl_weight = 0.01;               ///< [>= 0]

@@ -1,11 +1,9 @@
 #include "core/synthesis/vae/vae_motions.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "core/motion/editing/align.h"
@@ -57,20 +55,6 @@ Vec3 VectorFrom(const base::Json& json) {
   return Vec3(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
 }
 
-Status NoClips(const FoldChoice& choice, const std::set<std::string>& actions,
-               const std::set<std::string>& actors) {
-  if (actors.empty()) {
-    return base::FailedPrecondition(
-        "NO_CLIPS", "action_class",
-        fmt::format("the data set has no clips of class '{}'; its actions: {}", choice.action_class,
-                    fmt::join(actions, ", ")));
-  }
-  return base::FailedPrecondition(
-      "NO_CLIPS", "hold_out",
-      fmt::format("holding out '{}' leaves nothing to learn from, or is none of the actors: {}",
-                  choice.held_out, fmt::join(actors, ", ")));
-}
-
 }  // namespace
 
 base::Json RootScale::ToJson() const {
@@ -97,28 +81,16 @@ StatusOr<PreparedMotion> PrepareMotion(const Clip& clip, double frame_rate) {
   return PreparedMotion{*std::move(phases), reduced->skeleton()};
 }
 
-StatusOr<Fold> PrepareFold(const std::vector<motion::LabelledClip>& clips, const FoldChoice& choice,
-                           double frame_rate) {
-  Fold fold;
-  std::set<std::string> actions, actors;
-  for (const motion::LabelledClip& labelled : clips) {
-    actions.insert(labelled.action);
-    const bool wanted =
-        choice.action_class.empty() || motion::IsOfClass(labelled.action, choice.action_class);
-    if (!wanted) continue;
-    actors.insert(labelled.actor);
-    POISE_ASSIGN_OR_RETURN(PreparedMotion motion, PrepareMotion(labelled.clip, frame_rate));
-    const bool held_out = !choice.held_out.empty() && labelled.actor == choice.held_out;
-    (held_out ? fold.held_out : fold.train).push_back(std::move(motion));
+StatusOr<Fold> PrepareFold(const std::vector<motion::LabelledClip>& clips,
+                           const motion::FoldChoice& choice, double frame_rate) {
+  POISE_ASSIGN_OR_RETURN(const motion::FoldClips chosen, motion::ChooseFold(clips, choice));
+  Fold fold{.train = {}, .held_out = {}, .description = chosen.description};
+  for (const auto& [indices, motions] :
+       {std::pair(&chosen.train, &fold.train), std::pair(&chosen.held_out, &fold.held_out)}) {
+    for (const size_t i : *indices) {
+      POISE_ASSIGN_OR_RETURN(motions->emplace_back(), PrepareMotion(clips[i].clip, frame_rate));
+    }
   }
-  if (fold.train.empty() || (!choice.held_out.empty() && fold.held_out.empty())) {
-    return NoClips(choice, actions, actors);
-  }
-  actors.erase(choice.held_out);
-  fold.description = fmt::format(
-      "{}, actors {}{}", choice.action_class.empty() ? "all" : "class " + choice.action_class,
-      fmt::join(actors, " "),
-      choice.held_out.empty() ? "" : fmt::format(", {} held out", choice.held_out));
   return fold;
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/json.h"
 #include "core/base/status.h"
 #include "core/motion/clip.h"
+#include "core/motion/dataset/fold.h"
 #include "core/motion/dataset/labelled_clip.h"
 #include "core/motion/pose_codec.h"
 
@@ -37,22 +38,16 @@ struct PreparedMotion {
 /// Errors: those of JointRoles, Align and ReduceToRoles, with the clip's name.
 StatusOr<PreparedMotion> PrepareMotion(const motion::Clip& clip, double frame_rate);
 
-/// Who is learned from and who is not.
-struct FoldChoice {
-  std::string action_class = {};  ///< of IsOfClass; empty: all
-  std::string held_out = {};      ///< actor; empty: nobody
-};
-
+/// The motions of a fold, ready to learn.
 struct Fold {
   std::vector<PreparedMotion> train;
   std::vector<PreparedMotion> held_out;
   std::string description;  ///< "class kick, actors bd bk dg mm, tr held out"
 };
 
-/// Errors: kFailedPrecondition NO_CLIPS (of the class; or none is left to learn from; the message
-/// lists actions or actors); those of PrepareMotion.
-StatusOr<Fold> PrepareFold(const std::vector<motion::LabelledClip>& clips, const FoldChoice& choice,
-                           double frame_rate);
+/// Errors: those of motion::ChooseFold and PrepareMotion.
+StatusOr<Fold> PrepareFold(const std::vector<motion::LabelledClip>& clips,
+                           const motion::FoldChoice& choice, double frame_rate);
 
 /// `unit`: as VaeConfig::root_unit.
 RootScale MakeRootScale(std::string_view unit, const std::vector<PreparedMotion>& motions);

@@ -21,7 +21,24 @@ struct LatentGaussian {
   torch::Tensor Draw(const torch::Tensor& noise) const;
 };
 
-/// Motion to Gaussian: a bidirectional LSTM, its outputs averaged over the valid frames.
+/// Motion to what each of its frames says, as VaeNetConfig::layers has it.
+class FrameReader : public torch::nn::Module {
+ public:
+  FrameReader(const VaeNetConfig& config, int frames, int width);
+  /// Numbers of a frame that come out: of both directions of an LSTM, or of one layer.
+  static int Outputs(const VaeNetConfig& config);
+  /// poses (batch, frames, width) -> (batch, frames, Outputs); zero behind a motion's end.
+  torch::Tensor forward(const torch::Tensor& poses, const torch::Tensor& lengths);
+
+ private:
+  const int frequencies_;
+  torch::nn::LayerNorm norm_;
+  torch::nn::Linear embed_;
+  torch::nn::LSTM lstm_{nullptr};                                        // of lstm
+  torch::nn::Linear first_{nullptr}, clock_{nullptr}, second_{nullptr};  // of frames
+};
+
+/// Motion to Gaussian: what its frames say, averaged over the valid ones (LSTM: bidirectional).
 class VaeEncoder : public torch::nn::Module {
  public:
   VaeEncoder(const VaeNetConfig& config, int frames, int width);
@@ -29,24 +46,26 @@ class VaeEncoder : public torch::nn::Module {
   LatentGaussian forward(const torch::Tensor& poses, const torch::Tensor& lengths);
 
  private:
-  torch::nn::LayerNorm norm_;
-  torch::nn::Linear embed_;
-  torch::nn::LSTM lstm_;
+  std::shared_ptr<FrameReader> reader_;
   torch::nn::Sequential mean_, log_variance_;
 };
 
-/// Latent vector to motion: an LSTM that sees the same vector, and the clock, at every frame.
+/// Latent vector to motion: layers, or an LSTM, that see the same vector, and the clock, at every
+/// frame.
 class VaeDecoder : public torch::nn::Module {
  public:
   VaeDecoder(const VaeNetConfig& config, int frames, int width);
   /// z (batch, latent) -> the first `count` poses (batch, count, width) of `frames`.
   torch::Tensor forward(const torch::Tensor& z, int64_t count);
+  /// Makes motions that are not learned yet stay near a pose (width).
+  void StartAt(const torch::Tensor& pose);
 
  private:
   const int frames_;
   const int frequencies_;
   torch::nn::Linear embed_;
-  torch::nn::LSTM lstm_;
+  torch::nn::LSTM lstm_{nullptr};                                        // of lstm
+  torch::nn::Linear first_{nullptr}, clock_{nullptr}, second_{nullptr};  // of frames
   torch::nn::Sequential pose_;
 };
 
@@ -64,6 +83,8 @@ class VaeNet : public torch::nn::Module {
   }
   /// z -> frames (batch), not rounded.
   torch::Tensor EstimateLength(const torch::Tensor& z);
+  /// Before it has learned anything: the pose (width) and the length that all motions are near to.
+  void StartAt(const torch::Tensor& pose, double frames);
 
   int frames() const { return frames_; }
 
@@ -85,7 +106,8 @@ class FrameDiscriminator : public torch::nn::Module {
   torch::nn::Sequential layers_;
 };
 
-/// Tells whole motions: a bidirectional LSTM, its two last states side by side.
+/// Tells whole motions: a bidirectional LSTM, its two last states side by side; of layers of single
+/// frames the average of what they say.
 class SequenceDiscriminator : public torch::nn::Module {
  public:
   SequenceDiscriminator(const VaeNetConfig& config, int frames, int width);
@@ -94,9 +116,8 @@ class SequenceDiscriminator : public torch::nn::Module {
 
  private:
   const int hidden_;
-  torch::nn::LayerNorm norm_;
-  torch::nn::Linear embed_;
-  torch::nn::LSTM lstm_;
+  const bool is_lstm_;
+  std::shared_ptr<FrameReader> reader_;
   torch::nn::Sequential verdict_;
 };
 

@@ -66,7 +66,9 @@ class VaeLearner {
         width_(static_cast<int>(motions_.front().phases.front().cols())),
         net_(std::make_shared<VaeNet>(config.net, frames_, width_)),
         frame_judge_(std::make_shared<FrameDiscriminator>(config.net, width_)),
-        sequence_judge_(std::make_shared<SequenceDiscriminator>(config.net, frames_, width_)) {}
+        sequence_judge_(std::make_shared<SequenceDiscriminator>(config.net, frames_, width_)) {
+    if (config_.start_at_mean) StartAtMean();
+  }
 
   learning::TrainingSetup Setup(uint64_t seed) {
     learning::TrainingSetup setup;
@@ -125,6 +127,13 @@ class VaeLearner {
   }
 
  private:
+  void StartAtMean() {
+    const MotionBatch all = StackFirst(motions_, frames_, root_);
+    const torch::Tensor valid = ValidFrames(all.lengths, frames_, all.poses.options());
+    const torch::Tensor mean = (all.poses * valid.unsqueeze(2)).flatten(0, 1).sum(0) / valid.sum();
+    net_->StartAt(mean, all.lengths.to(torch::kFloat64).mean().item<double>());
+  }
+
   MotionBatch Draw(const Batch& batch) const {
     std::vector<const motion::PoseMatrix*> chosen;
     for (const int64_t sample : batch.samples) {

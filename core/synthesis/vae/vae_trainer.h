@@ -18,7 +18,7 @@ namespace poise::synthesis {
 /// What is learned, from what.
 struct VaeTask {
   std::vector<motion::LabelledClip> clips;
-  FoldChoice fold;
+  motion::FoldChoice fold;
   VaeConfig config;
   std::string preset = "recommended";
   std::string data;              ///< for the card: name of the data set,

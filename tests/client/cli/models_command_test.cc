@@ -161,6 +161,43 @@ TEST_F(ModelsCommandTest, APredictorIsTrainedTestedAndAnswersByItsName) {
   EXPECT_EQ(typo.Error()["reason"], "UNKNOWN_CONFIG_KEY");
 }
 
+TEST_F(ModelsCommandTest, WhatImitationChangesIsLearnedByAJobAndUndone) {
+  fs::create_directories(Path("clips/strike"));
+  for (const char* clip : {"kick.bvh", "punch.bvh"}) {
+    fs::copy(std::string(POISE_SAMPLES_DIR) + "/" + clip, Path("clips/strike") + "/" + clip);
+  }
+  ASSERT_EQ(Poise({"data", "add", "strikes", Path("clips")}).exit_code, 0);
+  const PoiseRun trained = Poise({"train", "debias", "--data", "strikes", "--class", "strike",
+                                  "--name", "habits", "--seed", "3", "--set", "trainer.steps=100"});
+  ASSERT_EQ(trained.exit_code, 0) << trained.out << trained.err;
+  const base::Json model = trained.JsonLines().back();
+  EXPECT_EQ(model["card"]["family"], "debias");
+  EXPECT_LT(model["scores"]["debiased_rad"], model["scores"]["imitated_rad"]);
+  const auto correct = [&](const std::string& out, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"correct",  Path("clips/strike/kick.bvh"),
+                                          "--method", "none",
+                                          "--effort", "instant",
+                                          "--out",    Path(out)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Poise(std::move(arguments));
+  };
+  const PoiseRun debiased = correct("debiased", {"--debias", "habits"});
+  ASSERT_EQ(debiased.exit_code, 0) << debiased.out << debiased.err;
+  EXPECT_EQ(ReadJson(Path("debiased/kick.json"))["parameters"]["debias"], "habits@1");
+  ASSERT_EQ(correct("imitated", {}).exit_code, 0);
+  const auto read = [&](const std::string& folder) {
+    std::ifstream file(Path(folder) + "/kick_none_000.bvh");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_FALSE(read("imitated").empty());
+  EXPECT_NE(read("debiased"), read("imitated"));
+  ASSERT_TRUE(motion::WriteBvhFile(Path("clips/slow.bvh"), SwingingClip(30, 60, 0.1, 0)).ok());
+  const PoiseRun slow = Poise({"correct", Path("clips/slow.bvh"), "--method", "none", "--debias",
+                               "habits", "--out", Path("slow")});
+  EXPECT_EQ(slow.exit_code, 8);
+  EXPECT_THAT(slow.out + slow.err, HasSubstr("SIGNATURE_MISMATCH"));
+}
+
 TEST_F(ModelsCommandTest, AJobThatNobodyWaitsForGivesItsModelTheName) {
   std::filesystem::create_directories(Path("clips/swing"));
   for (int i = 0; i < 3; ++i) {

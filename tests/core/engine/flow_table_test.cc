@@ -32,12 +32,17 @@ TEST(FlowTableTest, OnlyJobsThatLearnNeedLibTorch) {
       {.kind = "correct",
        .parameters = {
            {"sources", {source}}, {"method", "vae"}, {"model_artifact", "artifacts/1"}}}));
+  EXPECT_FALSE(NeedsTorch(
+      {.kind = "correct",
+       .parameters = {
+           {"sources", {source}}, {"effort", "fast"}, {"debias_artifact", "artifacts/1"}}}));
   EXPECT_FALSE(NeedsTorch({.kind = "selftest", .parameters = {}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_vae", .parameters = {}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_push", .parameters = {}}));
   EXPECT_FALSE(NeedsTorch({.kind = "evaluate_push", .parameters = {}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_predictor", .parameters = {}}));
   EXPECT_FALSE(NeedsTorch({.kind = "evaluate_predictor", .parameters = {}}));
+  EXPECT_TRUE(NeedsTorch({.kind = "train_debias", .parameters = {}}));
   EXPECT_FALSE(NeedsTorch({.kind = "nonsense", .parameters = {}}));
   EXPECT_EQ(base::ErrorReason(MakeLightRunner("train_vae").status()), "NO_NETWORKS");
   EXPECT_TRUE(MakeLightRunner("correct").ok());

@@ -32,6 +32,8 @@ TEST(CorrectionSchemaTest, ASpecWithEveryFieldGoesBothWays) {
        .joint_roles = {{"left_hip", "Hip_L"}}}};
   spec.model = "kick@2";
   spec.model_artifact = "artifacts/34";
+  spec.debias = "kick-tr@1";
+  spec.debias_artifact = "artifacts/56";
   spec.variants_per_source = 3;
   spec.effort = "full";
   spec.residual = "rfc";

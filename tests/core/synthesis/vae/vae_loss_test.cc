@@ -157,10 +157,24 @@ TEST(VaeLossTest, GradientsAreThoseOfFiniteDifferences) {
   EXPECT_LT(GradientError(made, b), 1e-7);
 }
 
-TEST(VaeLossTest, GradientsThroughTheNetworksAreThoseOfFiniteDifferences) {
+// Both kinds of layers.
+class VaeLayersTest : public ::testing::TestWithParam<const char*> {
+ protected:
+  VaeNetConfig Small() const {
+    return {.layers = GetParam(),
+            .latent = 3,
+            .hidden = 4,
+            .embedding = 5,
+            .length_hidden = 3,
+            .clock = 2};
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, VaeLayersTest, ::testing::Values("frames", "lstm"));
+
+TEST_P(VaeLayersTest, GradientsThroughTheNetworksAreThoseOfFiniteDifferences) {
   torch::manual_seed(4);
-  const VaeNetConfig small{
-      .latent = 3, .hidden = 4, .embedding = 5, .length_hidden = 3, .clock = 2};
+  const VaeNetConfig small = Small();
   VaeNet net(small, kFrames, kWidth);
   FrameDiscriminator frame(small, kWidth);
   SequenceDiscriminator sequence(small, kFrames, kWidth);
@@ -186,10 +200,9 @@ TEST(VaeLossTest, GradientsThroughTheNetworksAreThoseOfFiniteDifferences) {
   EXPECT_LT(GradientError(judged, RandomPoses(7)), 1e-6);
 }
 
-TEST(VaeNetTest, TheFirstPosesAreThoseOfTheWholeMotion) {
+TEST_P(VaeLayersTest, TheFirstPosesAreThoseOfTheWholeMotion) {
   torch::manual_seed(2);
-  const VaeNetConfig small{
-      .latent = 3, .hidden = 5, .embedding = 4, .length_hidden = 2, .clock = 2};
+  const VaeNetConfig small = Small();
   VaeNet net(small, kFrames, kWidth);
   const torch::Tensor z = torch::randn({kBatch, 3});
   const torch::Tensor whole = net.Decode(z);
@@ -197,10 +210,9 @@ TEST(VaeNetTest, TheFirstPosesAreThoseOfTheWholeMotion) {
   EXPECT_TRUE(torch::allclose(net.Decode(z, 3), whole.narrow(1, 0, 3), 1e-5, 1e-6));
 }
 
-TEST(VaeNetTest, WhatStandsBehindTheEndOfAMotionDoesNotChangeItsCode) {
+TEST_P(VaeLayersTest, WhatStandsBehindTheEndOfAMotionDoesNotChangeItsCode) {
   torch::manual_seed(4);
-  const VaeNetConfig small{
-      .latent = 3, .hidden = 4, .embedding = 5, .length_hidden = 3, .clock = 2};
+  const VaeNetConfig small = Small();
   VaeEncoder encoder(small, kFrames, kWidth);
   SequenceDiscriminator sequence(small, kFrames, kWidth);
   encoder.to(torch::kFloat64);
@@ -218,6 +230,17 @@ TEST(VaeNetTest, WhatStandsBehindTheEndOfAMotionDoesNotChangeItsCode) {
   swapped.index({1, 2}).add_(1);
   EXPECT_FALSE(torch::allclose(encoder.forward(poses, lengths).mean,
                                encoder.forward(swapped, lengths).mean));
+}
+
+TEST_P(VaeLayersTest, TrainingBeginsAtThePoseAndLengthThatItIsGiven) {
+  torch::manual_seed(5);
+  VaeNet net(Small(), kFrames, kWidth);
+  const torch::Tensor pose = 3 + torch::arange(kWidth, torch::kFloat32), z = torch::zeros({1, 3});
+  net.StartAt(torch::zeros({kWidth}), kFrames);
+  const torch::Tensor at_zero = net.Decode(z), longest = net.EstimateLength(z);
+  net.StartAt(pose, 2);
+  EXPECT_TRUE(torch::allclose(net.Decode(z) - at_zero, pose.expand({1, kFrames, kWidth}), 1e-4));
+  EXPECT_NEAR((net.EstimateLength(z) - longest).item<double>(), 2 - kFrames, 1e-5);
 }
 
 }  // namespace

@@ -242,7 +242,7 @@ TEST(JobResumeTest, ATrainingKilledAtRandomMomentsEndsWithTheWeightsOfAnUndistur
   ExpectThatKillsChangeNothing(
       "train_vae",
       {{"action_class", "swing"},
-       {"set", {{"trainer.steps", "1200"}, {"trainer.batch_size", "8"}, {"net.hidden", "64"}}}},
+       {"set", {{"trainer.steps", "600"}, {"trainer.batch_size", "8"}, {"net.hidden", "64"}}}},
       UploadSwings, 4);
 }
 

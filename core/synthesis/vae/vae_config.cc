@@ -16,6 +16,8 @@ VaeConfig Paper() {
   config.net.clock = 0;
   config.root_unit = "authors";
   config.start_at_mean = false;
+  config.frame_adversary_weight = 1;
+  config.sequence_adversary_weight = 1;
   config.vae_optimizer = {.type = "sgd",
                           .learning_rate = 0.005,
                           .schedule = "step",

@@ -14,6 +14,7 @@ PredictorTraining AsPublished(const char* family) {
   config.family = family;
   config.members = 1;
   config.balanced = config.mirror = config.speeds = false;
+  config.validation_share = 0.1;
   config.least_future_frames = 1000;  // no window reaches over the end of its sequence
   return config;
 }
@@ -103,7 +104,6 @@ PredictorTraining RecommendedHdm05() {
   config.members = 1;
   config.mixer.past_frames = config.mixer.future_frames = kMotionAugFrames;
   config.trainer.steps = 1000;
-  config.validation_share = 0;
   return config;
 }
 

@@ -19,21 +19,22 @@ namespace poise::prediction {
 /// preset `recommended`.
 struct PredictorTraining {
   std::string family = "mixer";  ///< whose sizes below count
-  int members = 4;               ///< [1 to 64] networks of which the mean is the answer
+  int members = 2;               ///< [1 to 64] networks of which the mean is the answer
   MixerConfig mixer;
   GcnConfig gcn;
   RnnConfig rnn;
   PotrConfig potr;
   SimlpeConfig simlpe;
-  learning::TrainerConfig trainer{.steps = 8000, .batch_size = 64, .validate_every = 500};
+  learning::TrainerConfig trainer{.steps = 5000, .batch_size = 64, .validate_every = 500};
   learning::OptimizerConfig optimizer{.type = "adamw",
                                       .learning_rate = 1e-3,
                                       .weight_decay = 1e-2,
                                       .warmup_steps = 100,
                                       .schedule = "cosine",
                                       .clip_norm = 1};
-  /// [0 to 0.5] of each long training sequence, at its end, that is held out to choose the weights.
-  double validation_share = 0.1;
+  /// [0 to 0.5] of each long training sequence, at its end, that is held out to choose the weights;
+  /// 0: those after the last step, learned from all.
+  double validation_share = 0;
   /// [1 to 1000] Windows that reach over the end of a sequence count with the frames that there
   /// are, at least so many.
   int least_future_frames = 8;

@@ -22,6 +22,7 @@ motion::BenchmarkClips Swings() {
 PredictorTraining Small(int64_t steps) {
   PredictorTraining config;
   config.members = 1;
+  config.validation_share = 0.1;
   config.mixer = {.past_frames = 10,
                   .future_frames = 8,
                   .width = 32,

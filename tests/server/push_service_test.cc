@@ -97,9 +97,10 @@ TEST(PushServiceTest, AnyBipedCanBePushedAndKeepsItsSkeletonAndPlace) {
 TEST(PushServiceTest, BadScenesAreRefusedWithReasonAndField) {
   TestServer server;
   const auto expect = [&](const v1::PushForecastRequest& request, const std::string& reason,
-                          const std::string& field) {
+                          const std::string& field,
+                          absl::StatusCode code = absl::StatusCode::kInvalidArgument) {
     const Status status = Forecast(server, request).status;
-    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << reason;
+    EXPECT_EQ(status.code(), code) << reason;
     EXPECT_EQ(base::ErrorReason(status), reason) << status;
     EXPECT_EQ(base::ErrorField(status), field) << status;
   };
@@ -127,7 +128,7 @@ TEST(PushServiceTest, BadScenesAreRefusedWithReasonAndField) {
   expect(nobody, "UNKNOWN_PERSON", "pushes[0].person");
   auto model = LineRequest(2);
   model.set_model("oracle");
-  expect(model, "UNKNOWN_MODEL", "model");
+  expect(model, "UNKNOWN_MODEL", "model", absl::StatusCode::kNotFound);
   auto key = LineRequest(2);
   (*key.mutable_overrides())["physics.frictoin"] = "1";
   expect(key, "UNKNOWN_CONFIG_KEY", "physics.frictoin");

@@ -21,7 +21,8 @@ inline ConstMap Weight(const LayerWeights& layer, Eigen::Index outputs, Eigen::I
   return ConstMap(layer.weight, outputs, inputs);
 }
 
-/// Normalises each row to mean 0 and deviation 1, then scales and shifts its columns.
+/// Normalises each row to mean 0 and deviation 1, then scales and shifts its columns; `out` has the
+/// shape of `h`.
 inline void Normalise(const Eigen::Ref<const Matrix>& h, const LayerWeights& norm,
                       Eigen::Ref<Matrix> out) {
   const float width = static_cast<float>(h.cols());

@@ -65,7 +65,7 @@ Matrix Perceptron(const LayerWeights& up, const LayerWeights& down, int hidden, 
 }
 
 Matrix Encode(const PotrArguments& a, Matrix x) {
-  Matrix n;
+  Matrix n(x.rows(), x.cols());
   for (int i = 0; i < a.sizes.layers; ++i) {
     const PotrEncoderLayer& layer = a.encoder[i];
     Normalise(x, layer.norm1, n);
@@ -78,7 +78,7 @@ Matrix Encode(const PotrArguments& a, Matrix x) {
 }
 
 Matrix Decode(const PotrArguments& a, Matrix x, const Matrix& memory) {
-  Matrix n;
+  Matrix n(x.rows(), x.cols());
   for (int i = 0; i < a.sizes.layers; ++i) {
     const PotrDecoderLayer& layer = a.decoder[i];
     Normalise(x, layer.norm1, n);

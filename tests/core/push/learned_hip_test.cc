@@ -182,6 +182,7 @@ TEST(TrainPushTest, AnInterruptedTrainingEndsWithTheSameWeights) {
   // Stopped in the second member: it hands over a checkpoint.
   std::string checkpoint;
   base::RunContext stopped = context;
+  stopped.cancellation = base::CancellationToken();
   stopped.progress = [&](const base::Progress& progress) {
     if (progress.step >= 6) stopped.cancellation.Cancel();
   };

@@ -62,8 +62,4 @@ std::unique_ptr<jobs::JobRunner> MakeEvaluatePushRunner() {
   return std::make_unique<EvaluatePushRunner>();
 }
 
-Status ValidateEvaluatePush(const base::Json& parameters) {
-  return pipeline::EvaluatePushSpec::FromParameters(parameters).status();
-}
-
 }  // namespace poise::engine

@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "core/base/json.h"
 #include "core/runtime/jobs/job_runner.h"
 
 namespace poise::engine {
@@ -12,8 +11,6 @@ namespace poise::engine {
 /// and the means; the manifest's report holds the means and what the model has less than the
 /// statue.
 std::unique_ptr<jobs::JobRunner> MakeEvaluatePushRunner();
-/// Errors: those of EvaluatePushSpec::FromParameters.
-Status ValidateEvaluatePush(const base::Json& parameters);
 
 }  // namespace poise::engine
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
 #include <atomic>
@@ -72,6 +73,24 @@ Row OneCall(const Subject& subject, Service& service) {
       .ratio = limit / call};
 }
 
+double ProcessCpuSeconds() {
+  timespec used;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+// Processor time of an answer [us].
+struct AnswerCost {
+  double all = 0;  // clients and server
+  double server = 0;
+};
+
+AnswerCost CostOf(const LoadResult& load, double process_cpu_s) {
+  const double answers = std::max<double>(load.answered, 1);
+  return {.all = 1e6 * process_cpu_s / answers,
+          .server = 1e6 * (process_cpu_s - load.client_cpu_s) / answers};
+}
+
 // Motions a second of all cores, in batches of a size, without gRPC.
 double InProcessRate(const Subject& subject, int batch, absl::Duration time) {
   std::atomic<int64_t> motions = 0;
@@ -100,25 +119,32 @@ Throughput ManyClients(const Subject& subject, Service& single, Service& batchin
   constexpr int kRounds = 5;
   const absl::Duration round = Scaled(absl::Seconds(4));
   std::vector<std::vector<double>> in_process(std::size(kSizes));
-  std::vector<double> unbatched, batched, gains, shares, waits;
+  std::vector<double> unbatched, batched, gains, shares, waits, floor_us, server_us, alone_us;
   for (int i = 0; i < kRounds; ++i) {
     double best = 0;
     for (size_t size = 0; size < std::size(kSizes); ++size) {
       in_process[size].push_back(InProcessRate(subject, kSizes[size], round / 4));
       best = std::max(best, in_process[size].back());
     }
-    const auto load = [&](Service& service) {
-      const LoadResult result = RunLoad(service.address(), kPredictModel, subject.past,
-                                        subject.horizon_s, kClients, round);
+    AnswerCost cost;
+    const auto load = [&](Service& service, const char* model) {
+      const double used_before = ProcessCpuSeconds();
+      const LoadResult result =
+          RunLoad(service.address(), model, subject.past, subject.horizon_s, kClients, round);
+      cost = CostOf(result, ProcessCpuSeconds() - used_before);
       if (result.failed + result.refused > 0) {
         fmt::print(stderr, "predict: {} calls failed, {} were refused: {}\n", result.failed,
                    result.refused, result.first_failure);
       }
       return result.rate();
     };
-    unbatched.push_back(load(single));
+    load(batching, "zero-velocity");
+    floor_us.push_back(cost.all);
+    unbatched.push_back(load(single, kPredictModel));
     batching.telemetry.TakeSorted();
-    batched.push_back(load(batching));
+    batched.push_back(load(batching, kPredictModel));
+    server_us.push_back(cost.server);
+    alone_us.push_back(1e6 * base::AvailableCpus() / best);
     const std::vector<double> of_round = batching.telemetry.TakeSorted();
     waits.insert(waits.end(), of_round.begin(), of_round.end());
     gains.push_back(batched.back() / unbatched.back());
@@ -149,6 +175,15 @@ Throughput ManyClients(const Subject& subject, Service& single, Service& batchin
                            "by size of batch {}",
                            best, sizes),
        .ratio = Median(shares),
+       .threads = kClients});
+  result.rows.push_back(
+      {.name = "predict/server_cpu_per_answer",
+       .value = Median(server_us),
+       .unit = "us",
+       .peer = fmt::format("best in process {:.0f} us a motion; a call that holds the last pose "
+                           "costs {:.0f} us, its client included",
+                           Median(alone_us), Median(floor_us)),
+       .ratio = Median(alone_us) / Median(server_us),
        .threads = kClients});
   const double p99 = Quantile(waits, 0.99);
   result.rows.push_back({.name = "predict/added_wait_p99",

@@ -1,6 +1,7 @@
 #include "bench/predict_load.h"
 
 #include <grpcpp/create_channel.h>
+#include <time.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,10 +16,17 @@
 namespace poise::bench {
 namespace {
 
+double ThreadCpuSeconds() {
+  timespec used;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
 // One client until the end.
 LoadResult Ask(const std::string& address, const v1::PredictRequest& request, absl::Time end) {
   const auto stub = v1::PredictionService::NewStub(OwnChannel(address));
   LoadResult result;
+  const double used_before = ThreadCpuSeconds();
   for (absl::Time begin = absl::Now(); begin < end; begin = absl::Now()) {
     grpc::ClientContext context;
     v1::PredictResponse response;
@@ -39,10 +47,12 @@ LoadResult Ask(const std::string& address, const v1::PredictRequest& request, ab
       if (++result.failed == 1) result.first_failure = base::Message(error);
     }
   }
+  result.client_cpu_s = ThreadCpuSeconds() - used_before;
   return result;
 }
 
 void Add(LoadResult one, LoadResult& all) {
+  all.client_cpu_s += one.client_cpu_s;
   all.answered += one.answered;
   all.refused += one.refused;
   all.failed += one.failed;

@@ -15,6 +15,7 @@ namespace poise::bench {
 /// What clients saw together.
 struct LoadResult {
   double seconds = 0;
+  double client_cpu_s = 0;  ///< processor time of the threads that asked
   int64_t answered = 0;
   int64_t refused = 0;  ///< RESOURCE_EXHAUSTED with a retry time, which the client kept to
   int64_t failed = 0;   ///< everything else

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "absl/time/clock.h"
-#include "core/artifacts/model_artifact.h"
 #include "core/base/identifier.h"
 #include "core/engine/clip_catalog.h"
 #include "core/engine/correct_checkpoint.h"
@@ -29,22 +28,12 @@ StatusOr<api::CorrectSpec> SpecOf(const base::Json& parameters) {
   return spec;
 }
 
-// The model that a spec names in the field `field`.
-StatusOr<artifacts::ModelArtifact> ReadModel(const std::string& artifact, const std::string& name,
-                                             const std::string& field,
-                                             const jobs::RunInput& input) {
-  POISE_ASSIGN_OR_RETURN(const std::string bytes, ReadInput(input, artifact, field));
-  StatusOr<artifacts::ModelArtifact> model = artifacts::UnpackModel(bytes, name);
-  if (!model.ok()) return base::Annotate(model.status(), "model", field);
-  return model;
-}
-
 // None where the spec names none.
 StatusOr<correction::DebiaserPtr> ReadDebiaser(const api::CorrectSpec& spec,
                                                const jobs::RunInput& input) {
   if (spec.debias_artifact.empty()) return correction::DebiaserPtr();
   POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
-                         ReadModel(spec.debias_artifact, spec.debias, "debias_artifact", input));
+                         ReadModel(input, spec.debias_artifact, spec.debias, "debias_artifact"));
   return correction::Debiaser::Create(model);
 }
 
@@ -127,7 +116,7 @@ StatusOr<pipeline::MotionDecoderPtr> CorrectRunner::Decoder(const api::CorrectSp
     return base::FailedPrecondition("NO_NETWORKS", "model", "this program evaluates no networks");
   }
   POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
-                         ReadModel(spec.model_artifact, spec.model, "model_artifact", input));
+                         ReadModel(input, spec.model_artifact, spec.model, "model_artifact"));
   return load_decoder_(model);
 }
 

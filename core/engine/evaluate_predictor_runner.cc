@@ -22,11 +22,8 @@ StatusOr<jobs::RunOutput> EvaluatePredictorRunner::Run(const jobs::RunInput& inp
   POISE_ASSIGN_OR_RETURN(const motion::BenchmarkClips clips, evaluation.Clips(tested, train));
   std::optional<artifacts::ModelArtifact> model;
   if (!evaluation.model_artifact.empty()) {
-    constexpr char kField[] = "spec.parameters.model_artifact";
-    POISE_ASSIGN_OR_RETURN(const std::string bytes, read(evaluation.model_artifact, kField));
-    StatusOr<artifacts::ModelArtifact> unpacked = artifacts::UnpackModel(bytes, evaluation.model);
-    if (!unpacked.ok()) return base::Annotate(unpacked.status(), "model", kField);
-    model = *std::move(unpacked);
+    POISE_ASSIGN_OR_RETURN(model, ReadModel(input, evaluation.model_artifact, evaluation.model,
+                                            "spec.parameters.model_artifact"));
   }
   POISE_ASSIGN_OR_RETURN(
       pipeline::EvaluationReport report,

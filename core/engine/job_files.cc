@@ -21,6 +21,15 @@ StatusOr<std::string> ReadInput(const jobs::RunInput& input, const std::string& 
                         fmt::format("cannot read {}", path->second.string()));
 }
 
+StatusOr<artifacts::ModelArtifact> ReadModel(const jobs::RunInput& input,
+                                             const std::string& artifact, const std::string& name,
+                                             std::string_view field) {
+  POISE_ASSIGN_OR_RETURN(const std::string bytes, ReadInput(input, artifact, field));
+  StatusOr<artifacts::ModelArtifact> model = artifacts::UnpackModel(bytes, name);
+  if (!model.ok()) return base::Annotate(model.status(), "model", field);
+  return model;
+}
+
 Status WriteOutput(const jobs::RunInput& input, const std::string& name,
                    const std::string& media_type, std::string_view bytes, jobs::RunOutput& output) {
   const std::filesystem::path path = input.folder / name;

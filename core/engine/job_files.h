@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/artifacts/model_artifact.h"
 #include "core/runtime/jobs/job_runner.h"
 
 /// Files that runners of jobs read and write.
@@ -16,6 +17,12 @@ inline constexpr double kCheckpointShare = 0.05;
 /// Errors: kNotFound INPUT_NOT_FOUND with the field.
 StatusOr<std::string> ReadInput(const jobs::RunInput& input, const std::string& artifact,
                                 std::string_view field);
+
+/// The model in it, which the parameters call `name`.
+/// Errors: those of ReadInput and artifacts::UnpackModel, with the field.
+StatusOr<artifacts::ModelArtifact> ReadModel(const jobs::RunInput& input,
+                                             const std::string& artifact, const std::string& name,
+                                             std::string_view field);
 
 /// Writes a file of the result and notes it in `output`. Errors: kResourceExhausted CANNOT_WRITE.
 Status WriteOutput(const jobs::RunInput& input, const std::string& name,

@@ -8,19 +8,6 @@
 
 namespace poise::prediction {
 
-GcnPredictor::GcnPredictor(const GcnConfig& config, NetworkBody body, PoseColumns columns)
-    : ColumnPredictor(std::move(body), config.past_frames, config.future_frames,
-                      std::move(columns)) {}
-
-StatusOr<std::shared_ptr<const GcnPredictor>> GcnPredictor::Create(
-    const GcnConfig& config, NetworkBody body, const base::TensorFile& weights) {
-  POISE_ASSIGN_OR_RETURN(PoseColumns columns, PoseColumns::Load(weights, body));
-  std::shared_ptr<GcnPredictor> predictor(
-      new GcnPredictor(config, std::move(body), std::move(columns)));
-  POISE_RETURN_IF_ERROR(predictor->Load(config, weights));
-  return predictor;
-}
-
 Status GcnPredictor::Load(const GcnConfig& config, const base::TensorFile& weights) {
   const int nodes = columns().count(), kept = config.kept_coefficients();
   for (int i = 0; i < config.layers(); ++i) {
@@ -48,14 +35,8 @@ Status GcnPredictor::Load(const GcnConfig& config, const base::TensorFile& weigh
   return absl::OkStatus();
 }
 
-void GcnPredictor::Forward(int batch, const float* inputs, float* outputs) const {
-  static const auto kernel =
-      base::SelectKernel(isa_v2::GcnKernel, isa_v3::GcnKernel, isa_v4::GcnKernel);
-  GcnArguments arguments = arguments_;
-  arguments.batch = batch;
-  arguments.inputs = inputs;
-  arguments.outputs = outputs;
-  kernel(arguments);
+void (*GcnPredictor::Kernel())(const GcnArguments&) {
+  return base::SelectKernel(isa_v2::GcnKernel, isa_v3::GcnKernel, isa_v4::GcnKernel);
 }
 
 }  // namespace poise::prediction

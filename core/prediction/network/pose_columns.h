@@ -1,7 +1,6 @@
 #ifndef POISE_CORE_PREDICTION_NETWORK_POSE_COLUMNS_H_
 #define POISE_CORE_PREDICTION_NETWORK_POSE_COLUMNS_H_
 
-#include <utility>
 #include <vector>
 
 #include "core/base/tensor_file.h"
@@ -39,29 +38,6 @@ class PoseColumns {
   std::vector<int> used_;  // (count) index among the root's and all joints' columns
   std::vector<float> mean_, scale_;
   bool root_ = false;  // of which some are in use
-};
-
-/// A network from rows of columns to rows of columns.
-class ColumnPredictor : public NetworkPredictor {
- protected:
-  ColumnPredictor(NetworkBody body, int past_frames, int future_frames, PoseColumns columns)
-      : NetworkPredictor(std::move(body), past_frames, future_frames),
-        columns_(std::move(columns)) {}
-
-  const PoseColumns& columns() const { return columns_; }
-  Sizes sizes() const override {
-    const size_t count = columns_.count();
-    return {signature().past_frames * count, signature().max_future_frames * count};
-  }
-  void Encode(const motion::Clip& past, float* inputs) const override {
-    columns_.Encode(past, signature().past_frames, inputs);
-  }
-  void Decode(const motion::Clip& past, const float* outputs, FuturePoses& future) const override {
-    columns_.Decode(past, outputs, future);
-  }
-
- private:
-  const PoseColumns columns_;
 };
 
 }  // namespace poise::prediction

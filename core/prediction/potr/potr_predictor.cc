@@ -9,19 +9,6 @@
 
 namespace poise::prediction {
 
-PotrPredictor::PotrPredictor(const PotrConfig& config, NetworkBody body, PoseColumns columns)
-    : ColumnPredictor(std::move(body), config.past_frames, config.future_frames,
-                      std::move(columns)) {}
-
-StatusOr<std::shared_ptr<const PotrPredictor>> PotrPredictor::Create(
-    const PotrConfig& config, NetworkBody body, const base::TensorFile& weights) {
-  POISE_ASSIGN_OR_RETURN(PoseColumns columns, PoseColumns::Load(weights, body));
-  std::shared_ptr<PotrPredictor> predictor(
-      new PotrPredictor(config, std::move(body), std::move(columns)));
-  POISE_RETURN_IF_ERROR(predictor->Load(config, weights));
-  return predictor;
-}
-
 Status PotrPredictor::Load(const PotrConfig& config, const base::TensorFile& weights) {
   arguments_.sizes = {.columns = columns().count(),
                       .past = config.past_frames,
@@ -104,14 +91,8 @@ Status PotrPredictor::LoadDecoder(const base::TensorFile& weights, const std::st
   return absl::OkStatus();
 }
 
-void PotrPredictor::Forward(int batch, const float* inputs, float* outputs) const {
-  static const auto kernel =
-      base::SelectKernel(isa_v2::PotrKernel, isa_v3::PotrKernel, isa_v4::PotrKernel);
-  PotrArguments arguments = arguments_;
-  arguments.batch = batch;
-  arguments.inputs = inputs;
-  arguments.outputs = outputs;
-  kernel(arguments);
+void (*PotrPredictor::Kernel())(const PotrArguments&) {
+  return base::SelectKernel(isa_v2::PotrKernel, isa_v3::PotrKernel, isa_v4::PotrKernel);
 }
 
 }  // namespace poise::prediction

@@ -7,19 +7,6 @@
 
 namespace poise::prediction {
 
-RnnPredictor::RnnPredictor(const RnnConfig& config, NetworkBody body, PoseColumns columns)
-    : ColumnPredictor(std::move(body), config.past_frames, config.future_frames,
-                      std::move(columns)) {}
-
-StatusOr<std::shared_ptr<const RnnPredictor>> RnnPredictor::Create(
-    const RnnConfig& config, NetworkBody body, const base::TensorFile& weights) {
-  POISE_ASSIGN_OR_RETURN(PoseColumns columns, PoseColumns::Load(weights, body));
-  std::shared_ptr<RnnPredictor> predictor(
-      new RnnPredictor(config, std::move(body), std::move(columns)));
-  POISE_RETURN_IF_ERROR(predictor->Load(config, weights));
-  return predictor;
-}
-
 Status RnnPredictor::Load(const RnnConfig& config, const base::TensorFile& weights) {
   RnnArguments& a = arguments_;
   a.columns = columns().count();
@@ -38,14 +25,8 @@ Status RnnPredictor::Load(const RnnConfig& config, const base::TensorFile& weigh
   return absl::OkStatus();
 }
 
-void RnnPredictor::Forward(int batch, const float* inputs, float* outputs) const {
-  static const auto kernel =
-      base::SelectKernel(isa_v2::RnnKernel, isa_v3::RnnKernel, isa_v4::RnnKernel);
-  RnnArguments arguments = arguments_;
-  arguments.batch = batch;
-  arguments.inputs = inputs;
-  arguments.outputs = outputs;
-  kernel(arguments);
+void (*RnnPredictor::Kernel())(const RnnArguments&) {
+  return base::SelectKernel(isa_v2::RnnKernel, isa_v3::RnnKernel, isa_v4::RnnKernel);
 }
 
 }  // namespace poise::prediction

@@ -8,19 +8,6 @@
 
 namespace poise::prediction {
 
-SimlpePredictor::SimlpePredictor(const SimlpeConfig& config, NetworkBody body, PoseColumns columns)
-    : ColumnPredictor(std::move(body), config.past_frames, config.future_frames,
-                      std::move(columns)) {}
-
-StatusOr<std::shared_ptr<const SimlpePredictor>> SimlpePredictor::Create(
-    const SimlpeConfig& config, NetworkBody body, const base::TensorFile& weights) {
-  POISE_ASSIGN_OR_RETURN(PoseColumns columns, PoseColumns::Load(weights, body));
-  std::shared_ptr<SimlpePredictor> predictor(
-      new SimlpePredictor(config, std::move(body), std::move(columns)));
-  POISE_RETURN_IF_ERROR(predictor->Load(config, weights));
-  return predictor;
-}
-
 Status SimlpePredictor::Load(const SimlpeConfig& config, const base::TensorFile& weights) {
   SimlpeArguments& a = arguments_;
   a.columns = columns().count();
@@ -42,14 +29,8 @@ Status SimlpePredictor::Load(const SimlpeConfig& config, const base::TensorFile&
   return absl::OkStatus();
 }
 
-void SimlpePredictor::Forward(int batch, const float* inputs, float* outputs) const {
-  static const auto kernel =
-      base::SelectKernel(isa_v2::SimlpeKernel, isa_v3::SimlpeKernel, isa_v4::SimlpeKernel);
-  SimlpeArguments arguments = arguments_;
-  arguments.batch = batch;
-  arguments.inputs = inputs;
-  arguments.outputs = outputs;
-  kernel(arguments);
+void (*SimlpePredictor::Kernel())(const SimlpeArguments&) {
+  return base::SelectKernel(isa_v2::SimlpeKernel, isa_v3::SimlpeKernel, isa_v4::SimlpeKernel);
 }
 
 }  // namespace poise::prediction

@@ -4,6 +4,8 @@
 //   predictor_learning --data DIR/hdm05 --benchmark hdm05 --class kickLFront1Reps
 //       --preset rnn-hdm05 --protocol loso --save models/kick
 //
+// --begin writes what bench/train_baselines.py trains from, instead of training.
+//
 // HDM05 without one actor at a time: a training per actor who is left out, and their mean. What was
 // saved is not trained again, and a training that was interrupted goes on. The results file has the
 // columns of `poise evaluate`. Progress goes to standard error.
@@ -42,6 +44,7 @@ struct Options {
   std::string license;              // for the card
   std::vector<std::string> models;  // folders, to be tested
   std::string save;                 // prefix of the models' folders
+  std::string begin;                // prefix of what is written to be trained elsewhere
 };
 
 base::CancellationToken& Stop() {
@@ -162,14 +165,43 @@ std::string TrainedOn(const Options& options, const Fold& fold) {
                      fold.actor.empty() ? "" : ", without actor " + fold.actor);
 }
 
-// A training's place on disk: the model's folder, and files beside it.
-std::filesystem::path FolderOf(const Options& options, const Fold& fold, uint64_t seed) {
-  return fmt::format("{}{}_{}", options.save, fold.actor.empty() ? "" : "_" + fold.actor, seed);
+// Where a fold's files are, and with a seed a training's: the model's folder, and files beside it.
+std::string PathOf(const std::string& prefix, const Fold& fold) {
+  return prefix + (fold.actor.empty() ? "" : "_" + fold.actor);
+}
+std::filesystem::path FolderOf(const std::string& prefix, const Fold& fold, uint64_t seed) {
+  return fmt::format("{}_{}", PathOf(prefix, fold), seed);
+}
+
+StatusOr<prediction::PredictorTask> Task(const Options& options, const Fold& fold) {
+  POISE_ASSIGN_OR_RETURN(prediction::PredictorTraining config, Training(options));
+  return prediction::PredictorTask{.clips = fold.clips,
+                                   .config = std::move(config),
+                                   .preset = options.preset,
+                                   .data = options.benchmark,
+                                   .data_fingerprint = "",
+                                   .data_license = options.license,
+                                   .trained_on = TrainedOn(options, fold)};
+}
+
+// The windows of a fold do not depend on the seed: one file for all its models.
+Status Begin(const Options& options, const Fold& fold) {
+  POISE_ASSIGN_OR_RETURN(const prediction::PredictorTask task, Task(options, fold));
+  for (int i = 0; i < options.seeds; ++i) {
+    const uint64_t seed = options.first_seed + i;
+    POISE_ASSIGN_OR_RETURN(const auto beginning, prediction::BeginPredictor(task, seed));
+    const std::filesystem::path folder = FolderOf(options.begin, fold, seed);
+    std::filesystem::create_directories(folder);
+    POISE_RETURN_IF_ERROR(artifacts::WriteModelFolder(beginning.model, folder));
+    std::ofstream(PathOf(options.begin, fold) + ".safetensors", std::ios::binary)
+        << base::EncodeTensors(beginning.windows);
+  }
+  return absl::OkStatus();
 }
 
 StatusOr<artifacts::ModelArtifact> Learn(const Options& options, const Fold& fold, uint64_t seed) {
-  POISE_ASSIGN_OR_RETURN(const prediction::PredictorTraining config, Training(options));
-  const std::filesystem::path folder = FolderOf(options, fold, seed);
+  POISE_ASSIGN_OR_RETURN(const prediction::PredictorTask task, Task(options, fold));
+  const std::filesystem::path folder = FolderOf(options.save, fold, seed);
   const std::string checkpoint_path = folder.string() + ".checkpoint";
   base::RunContext context;
   context.seed = seed;
@@ -189,14 +221,7 @@ StatusOr<artifacts::ModelArtifact> Learn(const Options& options, const Fold& fol
     };
   }
   POISE_ASSIGN_OR_RETURN(const prediction::PredictorResult trained,
-                         prediction::TrainPredictor({.clips = fold.clips,
-                                                     .config = config,
-                                                     .preset = options.preset,
-                                                     .data = options.benchmark,
-                                                     .data_fingerprint = "",
-                                                     .data_license = options.license,
-                                                     .trained_on = TrainedOn(options, fold)},
-                                                    context, checkpoint, sink));
+                         prediction::TrainPredictor(task, context, checkpoint, sink));
   std::fprintf(stderr, "\n");
   const api::ModelCard& card = trained.model.card;
   const auto validation = card.scores.find("validation_rad");
@@ -219,7 +244,7 @@ Status LearnAndTest(const Options& options, const std::vector<Fold>& folds, uint
   std::vector<PredictorPtr> predictors;
   std::string family;
   for (const Fold& fold : folds) {
-    const std::filesystem::path folder = FolderOf(options, fold, seed);
+    const std::filesystem::path folder = FolderOf(options.save, fold, seed);
     const bool there = !options.save.empty() && std::filesystem::exists(folder / "card.json");
     POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
                            there ? artifacts::ReadModelFolder(folder) : Learn(options, fold, seed));
@@ -231,6 +256,10 @@ Status LearnAndTest(const Options& options, const std::vector<Fold>& folds, uint
 
 Status Run(const Options& options) {
   POISE_ASSIGN_OR_RETURN(const std::vector<Fold> folds, LoadFolds(options));
+  if (!options.begin.empty()) {
+    for (const Fold& fold : folds) POISE_RETURN_IF_ERROR(Begin(options, fold));
+    return absl::OkStatus();
+  }
   Results results(folds);
   for (const std::string& name : prediction::BuiltInPredictorNames()) {
     const std::vector<PredictorPtr> floor(folds.size(), prediction::FindBuiltInPredictor(name));
@@ -274,6 +303,8 @@ int main(int argc, char** argv) {
   app.add_option("--license", options.license, "Of the data, for the model's card");
   app.add_option("--save", options.save,
                  "Prefix for folders of models, for learning curves, and for where to go on");
+  app.add_option("--begin", options.begin,
+                 "Prefix for untrained models' folders, and for files with their windows");
   CLI11_PARSE(app, argc, argv);
   poise::Stop();  // made before a signal may come
   std::signal(SIGTERM, [](int) { poise::Stop().Cancel(); });

@@ -1,6 +1,10 @@
 #include "core/prediction/tensors/pose_windows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "core/learning/nn/module_state.h"
 
 namespace poise::prediction {
 
@@ -31,11 +35,26 @@ void PoseWindows::Add(const motion::Clip& clip, std::span<const int> starts) {
   all_rotations_ = torch::Tensor();
 }
 
+void PoseWindows::Join() const {
+  if (all_rotations_.defined()) return;
+  all_rotations_ = torch::cat(rotations_);
+  all_positions_ = torch::cat(positions_);
+}
+
+Status PoseWindows::AppendTo(base::TensorFile& file, std::string_view prefix) const {
+  Join();
+  const auto append = [&](const char* name, const torch::Tensor& tensor) -> Status {
+    POISE_ASSIGN_OR_RETURN(file.tensors[fmt::format("{}{}", prefix, name)],
+                           learning::ToRecord(tensor));
+    return absl::OkStatus();
+  };
+  POISE_RETURN_IF_ERROR(append("rotations", all_rotations_));
+  POISE_RETURN_IF_ERROR(append("positions", all_positions_));
+  return append("starts", torch::tensor(starts_));
+}
+
 PoseTensors PoseWindows::Gather(std::span<const int64_t> windows) const {
-  if (!all_rotations_.defined()) {
-    all_rotations_ = torch::cat(rotations_);
-    all_positions_ = torch::cat(positions_);
-  }
+  Join();
   const auto count = static_cast<int64_t>(windows.size());
   torch::Tensor frames = torch::empty({count, window_}, torch::kInt64);
   torch::Tensor recorded = torch::ones({count, window_});

@@ -4,8 +4,10 @@
 #include <torch/torch.h>
 
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "core/base/tensor_file.h"
 #include "core/motion/clip.h"
 
 namespace poise::prediction {
@@ -34,7 +36,14 @@ class PoseWindows {
   int64_t size() const { return static_cast<int64_t>(starts_.size()); }
   PoseTensors Gather(std::span<const int64_t> windows) const;
 
+  /// Adds all poses, one clip after the other, and where the windows begin among them:
+  /// `prefix` + "rotations" (frames, joints, 4) w x y z, "positions" (frames, 3) [m], "starts"
+  /// (windows). Precondition: there are windows.
+  Status AppendTo(base::TensorFile& file, std::string_view prefix) const;
+
  private:
+  void Join() const;
+
   int window_;
   int64_t frames_ = 0;
   std::vector<torch::Tensor> rotations_;  // a clip each: (frames, joints, 4)

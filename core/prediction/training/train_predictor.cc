@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "core/base/random.h"
 #include "core/base/version.h"
@@ -63,6 +64,9 @@ class TrainingWindows {
   }
 
   int64_t size() const { return windows_.size(); }
+  Status AppendTo(base::TensorFile& file, std::string_view prefix) const {
+    return windows_.AppendTo(file, prefix);
+  }
   PoseTensors Draw(size_t count, base::Random& random) const {
     std::vector<int64_t> chosen(count);
     for (int64_t& window : chosen) {
@@ -141,11 +145,16 @@ api::ModelCard MakeCard(const PredictorTask& task, const NetworkBody& body, uint
   return card;
 }
 
-}  // namespace
+/// What learns, and from what.
+struct Lesson {
+  NetworkBody body;
+  EulerMeasure measure;
+  TrainingWindows train;
+  PoseWindows validation;
+  std::shared_ptr<PredictorNet> net;  // before its first step
+};
 
-StatusOr<PredictorResult> TrainPredictor(const PredictorTask& task, const base::RunContext& context,
-                                         const std::optional<std::string>& checkpoint,
-                                         const learning::CheckpointSink& sink) {
+StatusOr<Lesson> Begin(const PredictorTask& task, uint64_t seed) {
   const motion::BenchmarkClips& clips = task.clips;
   PredictorTraining config = task.config;
   POISE_RETURN_IF_ERROR(config.Validate());
@@ -159,32 +168,66 @@ StatusOr<PredictorResult> TrainPredictor(const PredictorTask& task, const base::
                         .mirror = config.mirror,
                         .speeds = config.speeds,
                         .drop_first_frame = clips.sense == motion::RotationSense::kRowVectors}));
-  const NetworkBody body = NetworkBody::Of(clips);
+  NetworkBody body = NetworkBody::Of(clips);
   const EulerMeasure measure = MeasureOf(clips, body);
   const int spare = std::max(0, future_frames - config.least_future_frames);
-  const TrainingWindows train(split, window, spare, config.balanced);
+  TrainingWindows train(split, window, spare, config.balanced);
   PoseWindows validation(window);
   for (const motion::Clip& clip : split.validation) {
     validation.Add(clip, Starts(clip, window, kValidationStep));
   }
-
-  learning::SeedTorch(context.seed);
+  learning::SeedTorch(seed);
   const std::shared_ptr<PredictorNet> net = MakeNet(config, body, measure);
   POISE_RETURN_IF_ERROR(learning::GuardStatus("scales", [&] {
-    base::Random random(base::DeriveSeed(context.seed, {kFit}));
+    base::Random random(base::DeriveSeed(seed, {kFit}));
     net->Fit(train.Draw(kFitWindows, random));
     return absl::OkStatus();
   }));
-  learning::TrainingSetup setup{.num_samples = train.size(), .seed = context.seed};
-  setup.networks.push_back({"predictor", net, config.optimizer,
-                            [&](const learning::Batch& batch) -> StatusOr<learning::Loss> {
-                              const size_t windows = batch.samples.size() * config.members;
-                              return learning::Loss{
-                                  .total = net->Loss(train.Draw(windows, batch.random))};
-                            }});
-  if (validation.size() > 0) {
+  return Lesson{std::move(body), measure, std::move(train), std::move(validation), net};
+}
+
+}  // namespace
+
+StatusOr<PredictorBeginning> BeginPredictor(const PredictorTask& task, uint64_t seed) {
+  const PredictorTraining& config = task.config;
+  if (config.balanced || config.least_future_frames < config.frames().future) {
+    return base::InvalidArgument("CONFIG_VALUE_OUT_OF_RANGE", "balanced",
+                                 "only windows inside sequences, each as likely, are written out");
+  }
+  POISE_ASSIGN_OR_RETURN(const Lesson lesson, Begin(task, seed));
+  PredictorBeginning beginning;
+  base::TensorFile& file = beginning.windows;
+  POISE_RETURN_IF_ERROR(lesson.train.AppendTo(file, "train."));
+  if (lesson.validation.size() > 0) {
+    POISE_RETURN_IF_ERROR(lesson.validation.AppendTo(file, "validation."));
+  }
+  const EulerMeasure& measure = lesson.measure;
+  const auto flag = [](bool value) {
+    return base::TensorRecord::FromFloats({1}, std::vector<float>{value ? 1.0F : 0.0F});
+  };
+  POISE_ASSIGN_OR_RETURN(file.tensors["counts"], learning::ToRecord(measure.counts));
+  file.tensors["row_vectors"] = flag(measure.row_vectors);
+  file.tensors["moving_only"] = flag(measure.moving_only);
+  POISE_RETURN_IF_ERROR(learning::AppendState(*lesson.net, "", beginning.model.weights));
+  beginning.model.card = MakeCard(task, lesson.body, seed);
+  return beginning;
+}
+
+StatusOr<PredictorResult> TrainPredictor(const PredictorTask& task, const base::RunContext& context,
+                                         const std::optional<std::string>& checkpoint,
+                                         const learning::CheckpointSink& sink) {
+  const PredictorTraining& config = task.config;
+  POISE_ASSIGN_OR_RETURN(const Lesson lesson, Begin(task, context.seed));
+  learning::TrainingSetup setup{.num_samples = lesson.train.size(), .seed = context.seed};
+  setup.networks.push_back(
+      {"predictor", lesson.net, config.optimizer,
+       [&](const learning::Batch& batch) -> StatusOr<learning::Loss> {
+         const size_t windows = batch.samples.size() * config.members;
+         return learning::Loss{.total = lesson.net->Loss(lesson.train.Draw(windows, batch.random))};
+       }});
+  if (lesson.validation.size() > 0) {
     setup.validate = [&]() -> StatusOr<double> {
-      return ValidationError(*net, validation, measure, body);
+      return ValidationError(*lesson.net, lesson.validation, lesson.measure, lesson.body);
     };
   }
   POISE_ASSIGN_OR_RETURN(const auto trainer,
@@ -193,9 +236,9 @@ StatusOr<PredictorResult> TrainPredictor(const PredictorTask& task, const base::
   POISE_ASSIGN_OR_RETURN(const learning::TrainingReport report, trainer->Run(context, sink));
 
   PredictorResult result;
-  POISE_RETURN_IF_ERROR(learning::AppendState(*net, "", result.model.weights));
+  POISE_RETURN_IF_ERROR(learning::AppendState(*lesson.net, "", result.model.weights));
   api::ModelCard& card = result.model.card;
-  card = MakeCard(task, body, context.seed);
+  card = MakeCard(task, lesson.body, context.seed);
   card.steps = report.steps;
   if (report.best_step >= 0) card.scores["validation_rad"] = report.best_validation;
   card.weights_sha256 = artifacts::WeightsDigest(result.model.weights);

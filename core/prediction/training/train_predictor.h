@@ -33,6 +33,19 @@ struct PredictorResult {
   std::string curve_svg;
 };
 
+/// What a training begins with, for programs that train elsewhere (bench/train_baselines.py).
+struct PredictorBeginning {
+  artifacts::ModelArtifact model;  ///< before its first step
+  /// PoseWindows::AppendTo with "train." and, where some are held out, "validation."; and of the
+  /// Euler error that is measured on those: "counts" (3 joints of the body), "row_vectors" (1),
+  /// "moving_only" (1).
+  base::TensorFile windows;
+};
+
+/// Errors: those of TrainPredictor; kInvalidArgument CONFIG_VALUE_OUT_OF_RANGE (windows are not all
+/// drawn equally often, or reach over ends: the file would not say so).
+StatusOr<PredictorBeginning> BeginPredictor(const PredictorTask& task, uint64_t seed);
+
 /// Learns from the training sequences of a benchmark with the seed of `context`; the weights are
 /// those that were best on their held-out ends. `checkpoint` is what an earlier attempt gave to
 /// `sink`; with one thread the result is then the same bit for bit.

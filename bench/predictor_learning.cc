@@ -104,14 +104,18 @@ pipeline::PredictorScores Together(const std::vector<Fold>& folds,
   return all;
 }
 
+using CardScores = decltype(api::ModelCard::scores);
+
 /// Rows of the results file, and a table for people.
 class Results {
  public:
   explicit Results(const std::vector<Fold>& folds) : folds_(folds) {}
 
-  /// A predictor for each fold.
-  Status Test(const std::vector<PredictorPtr>& predictors, const pipeline::ScoreLabels& labels,
-              const std::vector<std::string>& protocols) {
+  /// A predictor for each fold; returns what each fold's card may say of it.
+  StatusOr<std::vector<CardScores>> Test(const std::vector<PredictorPtr>& predictors,
+                                         const pipeline::ScoreLabels& labels,
+                                         const std::vector<std::string>& protocols) {
+    std::vector<CardScores> of_folds(folds_.size());
     for (const std::string& name : protocols) {
       POISE_ASSIGN_OR_RETURN(const motion::EvaluationProtocol protocol, motion::FindProtocol(name));
       std::vector<pipeline::PredictorScores> scores;
@@ -119,6 +123,11 @@ class Results {
         POISE_ASSIGN_OR_RETURN(
             scores.emplace_back(),
             pipeline::EvaluatePredictor(*predictors[i], folds_[i].clips, protocol, {}));
+        const std::vector<double>& mean = scores.back().mean;
+        for (const size_t frame : protocol.frames) {
+          if (frame < mean.size())
+            of_folds[i][fmt::format("{}_frame_{}_rad", name, frame)] = mean[frame];
+        }
       }
       const pipeline::PredictorScores all = Together(folds_, std::move(scores));
       rows_ += pipeline::ScoresCsvRows(all, labels, protocol,
@@ -133,7 +142,7 @@ class Results {
       std::printf("\n");
       std::fflush(stdout);
     }
-    return absl::OkStatus();
+    return of_folds;
   }
 
   Status Write(const std::string& path) const {
@@ -241,17 +250,26 @@ StatusOr<artifacts::ModelArtifact> Learn(const Options& options, const Fold& fol
 
 Status LearnAndTest(const Options& options, const std::vector<Fold>& folds, uint64_t seed,
                     Results& results) {
+  std::vector<artifacts::ModelArtifact> models;
   std::vector<PredictorPtr> predictors;
-  std::string family;
   for (const Fold& fold : folds) {
     const std::filesystem::path folder = FolderOf(options.save, fold, seed);
     const bool there = !options.save.empty() && std::filesystem::exists(folder / "card.json");
-    POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
+    POISE_ASSIGN_OR_RETURN(models.emplace_back(),
                            there ? artifacts::ReadModelFolder(folder) : Learn(options, fold, seed));
-    POISE_ASSIGN_OR_RETURN(predictors.emplace_back(), prediction::MakeTrainedPredictor(model));
-    family = model.card.family;
+    POISE_ASSIGN_OR_RETURN(predictors.emplace_back(),
+                           prediction::MakeTrainedPredictor(models.back()));
   }
-  return results.Test(predictors, {family, options.preset, seed}, options.protocols);
+  const std::string& family = models.front().card.family;
+  POISE_ASSIGN_OR_RETURN(
+      const std::vector<CardScores> scores,
+      results.Test(predictors, {family, options.preset, seed}, options.protocols));
+  for (size_t i = 0; !options.save.empty() && i < folds.size(); ++i) {
+    for (const auto& [name, value] : scores[i]) models[i].card.scores[name] = value;
+    POISE_RETURN_IF_ERROR(
+        artifacts::WriteModelFolder(models[i], FolderOf(options.save, folds[i], seed)));
+  }
+  return absl::OkStatus();
 }
 
 Status Run(const Options& options) {
@@ -263,16 +281,17 @@ Status Run(const Options& options) {
   Results results(folds);
   for (const std::string& name : prediction::BuiltInPredictorNames()) {
     const std::vector<PredictorPtr> floor(folds.size(), prediction::FindBuiltInPredictor(name));
-    POISE_RETURN_IF_ERROR(results.Test(floor, {name + "@1", "", 0}, options.protocols));
+    POISE_RETURN_IF_ERROR(results.Test(floor, {name + "@1", "", 0}, options.protocols).status());
   }
   for (const std::string& folder : options.models) {
     POISE_ASSIGN_OR_RETURN(const artifacts::ModelArtifact model,
                            artifacts::ReadModelFolder(folder));
     POISE_ASSIGN_OR_RETURN(const auto predictor, prediction::MakeTrainedPredictor(model));
     const std::string name = std::filesystem::path(folder).parent_path().filename().string();
-    POISE_RETURN_IF_ERROR(results.Test(std::vector<PredictorPtr>(folds.size(), predictor),
-                                       {name, model.card.preset, model.card.seed},
-                                       options.protocols));
+    POISE_RETURN_IF_ERROR(results
+                              .Test(std::vector<PredictorPtr>(folds.size(), predictor),
+                                    {name, model.card.preset, model.card.seed}, options.protocols)
+                              .status());
   }
   for (int i = 0; i < options.seeds; ++i) {
     POISE_RETURN_IF_ERROR(LearnAndTest(options, folds, options.first_seed + i, results));

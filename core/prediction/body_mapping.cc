@@ -48,9 +48,7 @@ StatusOr<BodyMapping> BodyMapping::Create(Clip source, const JointRoles& roles,
         Clip same, Clip::Create(source.name(), model, source.frame_rate(),
                                 {source.root_positions().begin(), source.root_positions().end()},
                                 {source.rotations().begin(), source.rotations().end()}));
-    std::vector<int> identity(source.num_joints());
-    for (int j = 0; j < source.num_joints(); ++j) identity[j] = j;
-    return BodyMapping(std::move(source), std::move(same), std::move(identity), 1);
+    return BodyMapping(std::move(source), std::move(same), {}, 1);
   }
   POISE_ASSIGN_OR_RETURN(const JointRoles model_roles, JointRoles::Detect(*model));
   POISE_ASSIGN_OR_RETURN(Clip on_model, motion::Retarget(source, roles, model, model_roles));
@@ -61,6 +59,11 @@ StatusOr<BodyMapping> BodyMapping::Create(Clip source, const JointRoles& roles,
 }
 
 StatusOr<Clip> BodyMapping::Back(const Clip& future) const {
+  if (driving_.empty()) {
+    return Clip::Create(source_.name(), source_.skeleton(), future.frame_rate(),
+                        {future.root_positions().begin(), future.root_positions().end()},
+                        {future.rotations().begin(), future.rotations().end()});
+  }
   const Skeleton& skeleton = *source_.skeleton();
   const int joints = skeleton.num_joints();
   const int last = source_.num_frames() - 1;

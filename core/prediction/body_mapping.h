@@ -38,7 +38,7 @@ class BodyMapping {
 
   motion::Clip source_;
   motion::Clip on_model_;
-  std::vector<int> driving_;  // (source joints) joint of the model, or -1
+  std::vector<int> driving_;  // (source joints) joint of the model, or -1; empty: the bodies agree
   double scale_;              // source length / model length
 };
 

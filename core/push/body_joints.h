@@ -16,6 +16,7 @@ inline constexpr int kRightToe = 17;
 inline constexpr int kLeftHip = 18;
 inline constexpr int kLeftAnkle = 20;
 inline constexpr int kLeftToe = 21;
+inline constexpr std::array kToes = {kRightToe, kLeftToe};
 
 inline constexpr std::array<int, kBodyJoints> kBodyParents = {
     -1, 0, 1, 2, 3, 4, 3, 6, 7, 8, 3, 10, 11, 12, 0, 14, 15, 16, 0, 18, 19, 20};

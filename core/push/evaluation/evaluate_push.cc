@@ -45,9 +45,15 @@ Status AddSet(const std::string& set, const std::vector<NamedModel>& models, con
                            StatueScores(takes, protocol, context));
     ForecasterScores& added = all.emplace_back(
         ForecasterScores{{named.name, protocol, set, named.model.card.seed}, std::move(scores)});
-    for (const char* measure : {"mpjpe", "hipade", "hipfde"}) {
+    for (const char* measure : {"mpjpe", "hipade", "hipfde", "pose_only"}) {
       added.less_statue[measure] = Compare(added.takes, still, measure, context.seed);
     }
+    POISE_ASSIGN_OR_RETURN(const PushNetworks networks, PushNetworks::Read(named.model));
+    const auto on_true_hip = [&](const PushTake& take) {
+      return ForecastOnTrueHip(networks, take);
+    };
+    all.push_back(
+        {{named.name + "_true_hip", "", set, named.model.card.seed}, ScoresOf(takes, on_true_hip)});
   }
   return absl::OkStatus();
 }

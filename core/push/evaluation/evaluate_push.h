@@ -14,8 +14,8 @@ namespace poise::push {
 struct ForecasterScores {
   ScoreLabels labels;
   std::vector<TakeScores> takes;
-  /// By measure (mpjpe, hipade, hipfde); only of a trained model, against the statue on our own
-  /// pendulum with the same input.
+  /// By measure (mpjpe, hipade, hipfde, pose_only); only of a trained model, against the statue on
+  /// our own pendulum with the same input.
   std::map<std::string, PairedDifference> less_statue = {};
 };
 
@@ -26,10 +26,10 @@ struct NamedModel {
 };
 
 /// Scores forecasters on the takes alone and on those with several people: nobody moves, the statue
-/// on the true hip, the statue on our own pendulum, then the models; each model is told what its
-/// card says (protocol), the statue what the first model is (B without one).
-/// `takes` are all those to be scored, of either set.
-/// Errors: those of MakeLearnedForecaster and EvaluateForecaster.
+/// on the true hip, the statue on our own pendulum, then the models, each also with the recorded
+/// hip instead of its own ("NAME_true_hip"). Each model is told what its card says (protocol), the
+/// statue what the first model is (B without one). `takes` are all those to be scored, of either
+/// set. Errors: those of MakeLearnedForecaster and EvaluateForecaster.
 StatusOr<std::vector<ForecasterScores>> EvaluatePush(const std::vector<NamedModel>& models,
                                                      std::span<const PushTake* const> takes,
                                                      const base::RunContext& context);

@@ -6,7 +6,9 @@
 #include <array>
 
 #include "core/base/random.h"
+#include "core/push/learned/body_ensemble.h"
 #include "core/push/restoration/rigid_fit.h"
+#include "core/push/takes/recorded_hip.h"
 
 namespace poise::push {
 namespace {
@@ -34,6 +36,38 @@ BodyShape ShapeIn(const TakePerson& person, int frame) {
     shape[joint] = person.joint(frame, joint) - person.joint(frame, kPelvis);
   }
   return shape;
+}
+
+// Recorded hips as the hip networks would hand them on; `ahead` frames beyond the end.
+std::vector<HipMoment> RecordedMoments(const PushTake& take, int ahead) {
+  const int people = static_cast<int>(take.people.size());
+  std::vector<HipMoment> moments(take.frames + ahead);
+  for (HipMoment& moment : moments) {
+    moment.path = moment.rate = moment.lean = moment.lean_change = FloorVectors::Zero(people, 2);
+    moment.headings = FacingX(people);
+    moment.takes_part.assign(people, true);
+  }
+  for (int i = 0; i < people; ++i) {
+    const TakePerson& person = take.people[i];
+    const auto lean = [&](int frame) {
+      const PendulumPose pose =
+          PendulumOf(person.joint(frame, kPelvis), person.joint(frame, kRightAnkle),
+                     person.joint(frame, kLeftAnkle));
+      return Eigen::RowVector2f(pose.position.tail<2>().cast<float>().transpose());
+    };
+    const auto path = RecordedHip(person, take.frames + ahead);
+    moments[0].beginners.push_back(i);
+    for (int frame = 0; frame < take.frames + ahead; ++frame) {
+      HipMoment& moment = moments[frame];
+      moment.frame = frame;
+      moment.path.row(i) = path[frame].cast<float>().transpose();
+      moment.lean.row(i) = lean(std::min(frame, take.frames - 1));
+      moment.lean_change.row(i) = moment.lean.row(i) - moments[0].lean.row(i);
+      if (frame == 0) continue;
+      moment.rate.row(i) = ((path[frame] - path[frame - 1]) * kFrameRate).cast<float>().transpose();
+    }
+  }
+  return moments;
 }
 
 std::string Row(const ScoreLabels& labels, const std::string& take, const Measures& measures) {
@@ -79,6 +113,27 @@ StatusOr<ForecastJoints> ForecastTake(const PushForecaster& forecaster, const Pu
       if (!now->turns.empty()) body = Turned(body, now->turns[i]);
       const Vec3 hip = now->hips.row(i).matrix().transpose();
       for (const Vec3& joint : body) forecast[i].push_back(hip + joint);
+    }
+  }
+  return forecast;
+}
+
+ForecastJoints ForecastOnTrueHip(const PushNetworks& networks, const PushTake& take) {
+  base::Random random(0);
+  const PushScene scene = SceneOf(take, Protocol::kB, random);
+  BodyEnsemble bodies(scene, networks);
+  const int lookahead = networks.lookahead();
+  const std::vector<HipMoment> moments = RecordedMoments(take, lookahead);
+  ForecastJoints forecast(take.people.size());
+  for (int frame = 0; frame < take.frames; ++frame) {
+    const HipMoment& now = moments[frame];
+    bodies.Step(now, moments[frame + lookahead / 2], moments[frame + lookahead]);
+    for (size_t i = 0; i < forecast.size(); ++i) {
+      const Vec3 hip =
+          scene.people[i].hip + Vec3(now.path(i, 0), now.path(i, 1), bodies.heights()[i]);
+      for (const Vec3& joint : Turned(scene.people[i].shape, bodies.turns()[i])) {
+        forecast[i].push_back(hip + joint);
+      }
     }
   }
   return forecast;

@@ -8,6 +8,7 @@
 #include "core/base/run_context.h"
 #include "core/base/status.h"
 #include "core/push/evaluation/take_scores.h"
+#include "core/push/learned/push_networks.h"
 #include "core/push/push_forecaster.h"
 #include "core/push/takes/push_protocol.h"
 
@@ -20,6 +21,9 @@ PushScene SceneOf(const PushTake& take, Protocol protocol, base::Random& random)
 /// Errors: those of PushRollout; kCancelled, kDeadlineExceeded.
 StatusOr<ForecastJoints> ForecastTake(const PushForecaster& forecaster, const PushTake& take,
                                       Protocol protocol, const base::RunContext& context);
+
+/// Bodies as a trained model puts them on the recorded hips: what it would do if it knew those.
+ForecastJoints ForecastOnTrueHip(const PushNetworks& networks, const PushTake& take);
 
 /// Forecasts takes with the seed of `context` and scores them, in order; reports progress.
 StatusOr<std::vector<TakeScores>> EvaluateForecaster(const PushForecaster& forecaster,

@@ -15,7 +15,6 @@ namespace {
 
 using motion::PositionsView;
 
-constexpr std::array kToes = {kRightToe, kLeftToe};
 constexpr std::array kAnkles = {kRightAnkle, kLeftAnkle};
 constexpr int kUp = 2;  // ground frame
 constexpr motion::FootJoints kToeJoints{kToes, kUp};

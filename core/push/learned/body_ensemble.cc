@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/push/learned/push_context.h"
+#include "core/push/restoration/planted_feet.h"
 #include "core/push/restoration/rigid_fit.h"
 
 namespace poise::push {
@@ -25,10 +26,15 @@ math::Quat InGround(const math::Quat& heading, const math::Quat& turn) {
 BodyEnsemble::BodyEnsemble(const PushScene& scene, const PushNetworks& networks)
     : scene_(scene),
       networks_(networks),
-      people_(scene.people.size()),
       bodies_(MatrixXf::Zero(scene.people.size(), kBodySize)),
       turns_(scene.people.size(), NoTurns()),
       heights_(Eigen::VectorXf::Zero(scene.people.size())) {
+  for (const ScenePerson& person : scene.people) {
+    people_.push_back({.body = {},
+                       .turns = {},
+                       .heading = math::Quat::Identity(),
+                       .steps = StepPlanner({person.shape[kRightToe], person.shape[kLeftToe]})});
+  }
   for (const PoseModel& model : networks.poses) {
     memories_.push_back(MatrixXf::Zero(scene.people.size(), model.config().hidden));
   }
@@ -76,14 +82,34 @@ void BodyEnsemble::Turn(int i, const Eigen::RowVectorXf& change) {
   for (int joint = 0; joint < kBodyJoints; ++joint) {
     turns_[i][joint] = (InGround(person.heading, turns[joint]) * person.turns[joint]).normalized();
   }
-  heights_[i] = person.height + change[kPoseSize - 1];
+  heights_[i] = person.height + change[kHeightColumn];
+}
+
+// Legs bend so that a foot that stands stays where it is and one that swings goes where it lands.
+void BodyEnsemble::PlaceFeet(int i, const HipMoment& now, const Eigen::RowVectorXf& change,
+                             bool step) {
+  if (!networks_.steps.enabled) return;
+  Person& person = people_[i];
+  std::array<FootWish, 2> wishes;
+  for (int foot = 0; foot < 2; ++foot) {
+    const Eigen::RowVector2f from_pelvis =
+        person.body[kToes[foot]].head<2>().cast<float>().transpose() +
+        change.segment<2>(kFootholdColumn + 2 * foot);
+    const Eigen::RowVector2f place = now.path.row(i) + ToGround(now.headings.row(i), from_pelvis);
+    wishes[foot] = {change[kSwingColumn + foot], place.cast<double>().transpose()};
+  }
+  const Vec3 pelvis(now.path(i, 0), now.path(i, 1), heights_[i]);
+  if (step) person.steps.Step(networks_.steps, wishes, now.takes_part[i]);
+  std::array<Vec3, 2> toes = person.steps.toes();
+  for (Vec3& toe : toes) toe -= pelvis;
+  PlantFeet(scene_.people[i].shape, toes, turns_[i]);
 }
 
 void BodyEnsemble::Step(const HipMoment& now, const HipMoment& middle, const HipMoment& far) {
   for (const int person : now.beginners) Begin(person, now);
-  if (std::none_of(now.takes_part.begin(), now.takes_part.end(), [](bool part) { return part; })) {
-    return;
-  }
+  std::vector<bool> moves = now.takes_part;
+  for (size_t i = 0; i < moves.size(); ++i) moves[i] = moves[i] || people_[i].steps.swinging();
+  if (std::none_of(moves.begin(), moves.end(), [](bool one) { return one; })) return;
   const MatrixXf paths = Paths(now, middle, far);
   MatrixXf change = MatrixXf::Zero(bodies_.rows(), kPoseSize);
   for (size_t m = 0; m < memories_.size(); ++m) {
@@ -94,7 +120,10 @@ void BodyEnsemble::Step(const HipMoment& now, const HipMoment& middle, const Hip
   for (const int person : now.beginners) fresh[person] = true;
   for (size_t i = 0; i < people_.size(); ++i) {
     // In the frame in which somebody begins the pose is known.
-    if (now.takes_part[i] && !fresh[i]) Turn(static_cast<int>(i), change.row(i));
+    if (!moves[i]) continue;
+    if (!fresh[i]) Turn(static_cast<int>(i), change.row(i));
+    const bool stands = fresh[i] && now.path.row(i).isZero();
+    if (!stands) PlaceFeet(static_cast<int>(i), now, change.row(i), !fresh[i]);
   }
 }
 

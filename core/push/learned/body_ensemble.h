@@ -9,8 +9,9 @@
 
 namespace poise::push {
 
-/// Puts bodies on moving hips: the mean of the pose networks, brought to each person's bones. Who
-/// takes no part keeps the pose. Threads: one caller at a time.
+/// Puts bodies on moving hips: the mean of the pose networks, brought to each person's bones, on
+/// feet that stand or step (StepPlanner). Who takes no part keeps the pose, once both feet stand.
+/// Threads: one caller at a time.
 class BodyEnsemble {
  public:
   /// Both outlive the ensemble.
@@ -33,11 +34,13 @@ class BodyEnsemble {
     math::Quat heading;                                     // ground from heading
     Eigen::RowVector2f place = Eigen::RowVector2f::Zero();  // of the hip since frame 0
     float height = 0;
+    StepPlanner steps;  // ground frame, from the hip in frame 0
   };
 
   void Begin(int person, const HipMoment& now);
   MatrixXf Paths(const HipMoment& now, const HipMoment& middle, const HipMoment& far) const;
   void Turn(int person, const Eigen::RowVectorXf& change);
+  void PlaceFeet(int person, const HipMoment& now, const Eigen::RowVectorXf& change, bool step);
 
   const PushScene& scene_;
   const PushNetworks& networks_;

@@ -20,8 +20,13 @@ struct PoseConfig {
 inline constexpr int kPathSize = 14;
 /// Joints of frame 0 from the pelvis (63) and the mass.
 inline constexpr int kBodySize = 64;
-/// Change since frame 0 of joints from the pelvis (63) and of the pelvis' height.
-inline constexpr int kPoseSize = 64;
+/// Change since frame 0 of joints from the pelvis (63) and of the pelvis' height, then of the feet
+/// (right, left) which of them swing (2) and the change since frame 0 of their footholds from the
+/// pelvis (4). A foothold is where a toe stands, or will stand once it has come down.
+inline constexpr int kPoseSize = 70;
+inline constexpr int kHeightColumn = 63;
+inline constexpr int kSwingColumn = 64;
+inline constexpr int kFootholdColumn = 66;
 inline constexpr double kPoseScale = 0.2;  ///< [m] of one unit of output
 
 }  // namespace poise::push

@@ -17,7 +17,12 @@ MatrixXf PoseModel::Step(const MatrixXf& path, const MatrixXf& body, MatrixXf& m
   MatrixXf input(path.rows(), kPathSize + kBodySize);
   input << path, body;
   cell_.Step(input, memory);
-  return static_cast<float>(kPoseScale) * pose_(memory);
+  MatrixXf pose = pose_(memory);
+  auto swings = pose.middleCols<2>(kSwingColumn).array();
+  const Eigen::ArrayXXf probability = 1 / (1 + (-swings).exp());
+  pose *= static_cast<float>(kPoseScale);
+  pose.middleCols<2>(kSwingColumn) = probability.matrix();
+  return pose;
 }
 
 }  // namespace poise::push

@@ -16,9 +16,10 @@ class PoseModel {
   static StatusOr<PoseModel> Read(const base::TensorFile& file, const std::string& prefix,
                                   const PoseConfig& config);
 
-  /// Change of joints (3 each, joints 1..21 from the pelvis) and of the pelvis' height since frame
-  /// 0 [m]: (people, kPoseSize). Bones are not yet put back to their lengths. `path` (people,
-  /// kPathSize), `body` (people, kBodySize), `memory` (people, hidden), at first 0.
+  /// (people, kPoseSize): change of joints (3 each, joints 1..21 from the pelvis) and of the
+  /// pelvis' height since frame 0 [m], probability that feet swing, change of footholds [m]. Bones
+  /// are not yet put back to their lengths. `path` (people, kPathSize), `body` (people, kBodySize),
+  /// `memory` (people, hidden), at first 0.
   MatrixXf Step(const MatrixXf& path, const MatrixXf& body, MatrixXf& memory) const;
 
   const PoseConfig& config() const { return config_; }

@@ -18,6 +18,7 @@ StatusOr<PushNetworks> PushNetworks::Read(const artifacts::ModelArtifact& model)
   POISE_RETURN_IF_ERROR(base::FieldsFromJson(model.card.config, config.Fields()));
   POISE_RETURN_IF_ERROR(config.Validate());
   PushNetworks networks;
+  networks.steps = config.steps;
   for (int i = 0; i < config.hip_members; ++i) {
     POISE_ASSIGN_OR_RETURN(HipModel hip,
                            HipModel::Read(model.weights, fmt::format("hip{}.", i), config.hip));

@@ -7,6 +7,7 @@
 #include "core/base/status.h"
 #include "core/push/learned/hip_model.h"
 #include "core/push/learned/pose_model.h"
+#include "core/push/restoration/step_planner.h"
 
 namespace poise::push {
 
@@ -14,6 +15,7 @@ namespace poise::push {
 struct PushNetworks {
   std::vector<HipModel> hips;
   std::vector<PoseModel> poses;
+  StepConfig steps;
 
   /// From a model of family "push": sizes from the card's config (PushTraining), numbers below
   /// "hip0.", "hip1.", ..., "pose0.", ... Errors: kFailedPrecondition WRONG_FAMILY;

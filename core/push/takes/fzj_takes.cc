@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -186,15 +187,23 @@ std::vector<const PushTake*> TakesOf(const std::vector<PushTake>& takes, Split s
 }
 
 TrainingTakes SplitTraining(const std::vector<PushTake>& takes, int fold) {
-  const auto set_of = [](const PushTake& take) { return take.group + take.session; };
-  const std::vector<const PushTake*> all = TakesOf(takes, Split::kTrain);
+  return SplitTakes(TakesOf(takes, Split::kTrain), fold);
+}
+
+TrainingTakes SplitTakes(const std::vector<const PushTake*>& training, int fold) {
+  const auto session_of = [](const PushTake& take) { return take.group + take.session; };
+  std::map<std::string, int> sessions;
+  for (const PushTake* take : training) ++sessions[session_of(*take)];
+  const bool few = std::any_of(sessions.begin(), sessions.end(),
+                               [](const auto& session) { return session.second == 1; });
+  const auto set_of = [&](const PushTake& take) { return few ? take.group : session_of(take); };
   std::map<std::string, int> sizes, seen;  // of each set: training takes, and those so far
-  for (const PushTake* take : all) ++sizes[set_of(*take)];
+  for (const PushTake* take : training) ++sizes[set_of(*take)];
   TrainingTakes split;
-  for (const PushTake* take : all) {
-    const int place = seen[set_of(*take)]++;
-    const bool chosen =
-        take->multi ? place % 6 == (2 + fold) % 6 : place == (1 + fold) % sizes[set_of(*take)];
+  for (const PushTake* take : training) {
+    const int size = sizes[set_of(*take)], place = seen[set_of(*take)]++;
+    const int every = take->multi ? std::min(size, 6) : size;
+    const bool chosen = size > 1 && place % every == (fold + (take->multi ? 2 : 1)) % every;
     (chosen ? split.validation : split.train).push_back(take);
   }
   return split;

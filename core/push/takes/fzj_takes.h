@@ -27,6 +27,9 @@ struct TrainingTakes {
   std::vector<const PushTake*> validation;
 };
 TrainingTakes SplitTraining(const std::vector<PushTake>& takes, int fold = 0);
+/// The same among some training takes. A set of one take trains; where there are such sets, both
+/// sessions of a subject are one set.
+TrainingTakes SplitTakes(const std::vector<const PushTake*>& training, int fold);
 
 }  // namespace poise::push
 

@@ -82,4 +82,15 @@ StatusOr<TrainedHip> TrainHip(const TrainingTakes& takes, Protocol protocol, con
   });
 }
 
+void AddForecasts(HipNet net, const std::vector<const PushTake*>& takes, Protocol protocol,
+                  int64_t ahead, base::Random& random, HipForecasts& forecasts) {
+  torch::NoGradGuard no_gradient;
+  for (const PushTake* take : takes) {
+    const int64_t frames = take->frames + ahead;
+    const HipPaths paths =
+        net->Rollout(Extended(MakeBatch({&take, 1}, protocol, {}, random), frames), frames);
+    forecasts.insert_or_assign(take, HipPaths{paths.hip[0], paths.lean[0]});
+  }
+}
+
 }  // namespace poise::push

@@ -1,6 +1,8 @@
 #ifndef POISE_CORE_PUSH_TRAINING_HIP_TRAINING_H_
 #define POISE_CORE_PUSH_TRAINING_HIP_TRAINING_H_
 
+#include <map>
+
 #include "core/base/run_context.h"
 #include "core/base/status.h"
 #include "core/push/takes/fzj_takes.h"
@@ -23,6 +25,13 @@ struct TrainedHip {
 StatusOr<TrainedHip> TrainHip(const TrainingTakes& takes, Protocol protocol, const HipConfig& net,
                               const HipTraining& config, const base::RunContext& context,
                               const Resumption& resumption = {});
+
+/// Paths of takes' people, (people, frames, 2).
+using HipForecasts = std::map<const PushTake*, HipPaths>;
+
+/// Adds what a network forecasts of takes, `ahead` frames beyond the recorded ones.
+void AddForecasts(HipNet net, const std::vector<const PushTake*>& takes, Protocol protocol,
+                  int64_t ahead, base::Random& random, HipForecasts& forecasts);
 
 }  // namespace poise::push
 

@@ -24,6 +24,11 @@ Tensor AtBoneLengths(const Tensor& joints, const Tensor& first) {
   return torch::stack(placed, 2);
 }
 
+// (people, 2, 2): where the toes are on the floor.
+Tensor Toes(const Tensor& first) {
+  return torch::stack({first.select(1, kRightToe), first.select(1, kLeftToe)}, 1).slice(2, 0, 2);
+}
+
 }  // namespace
 
 Tensor PathFeatures(const PoseBatch& batch, const PoseConfig& config) {
@@ -55,13 +60,18 @@ PosePaths PoseNetImpl::Forward(const PoseBatch& batch) {
   const int64_t frames = batch.frames(), people = batch.hip.size(0);
   const Tensor body = batch.body.unsqueeze(1).expand({-1, frames, -1});
   const Tensor memory = std::get<0>(cell_(torch::cat({PathFeatures(batch, config_), body}, -1)));
-  const Tensor change = kPoseScale * pose_(memory);
-  const Tensor first = torch::cat({torch::zeros({people, 3}), batch.body.slice(1, 0, 63)}, 1)
-                           .reshape({people, kBodyJoints, 3});
-  const Tensor moved = torch::cat({torch::zeros({people, frames, 3}), change.slice(2, 0, 63)}, 2)
-                           .reshape({people, frames, kBodyJoints, 3});
+  const Tensor pose = pose_(memory), change = kPoseScale * pose;
+  const Tensor first =
+      torch::cat({torch::zeros({people, 3}, batch.body.options()), batch.body.slice(1, 0, 63)}, 1)
+          .reshape({people, kBodyJoints, 3});
+  const Tensor moved =
+      torch::cat({torch::zeros({people, frames, 3}, change.options()), change.slice(2, 0, 63)}, 2)
+          .reshape({people, frames, kBodyJoints, 3});
   return {.joints = AtBoneLengths(first.unsqueeze(1) + moved, first),
-          .height = change.select(2, 63)};
+          .height = change.select(2, kHeightColumn),
+          .swings = pose.slice(2, kSwingColumn, kFootholdColumn),
+          .footholds = Toes(first).unsqueeze(1) +
+                       change.slice(2, kFootholdColumn, kPoseSize).reshape({people, frames, 2, 2})};
 }
 
 }  // namespace poise::push

@@ -11,11 +11,14 @@ namespace poise::push {
 struct PoseBatch {
   torch::Tensor
       hip;  ///< (people, frames + lookahead, 2) path of the hip, from its place in frame 0
-  torch::Tensor lean;    ///< (people, frames, 2) theta, phi since frame 0
-  torch::Tensor body;    ///< (people, kBodySize)
-  torch::Tensor joints;  ///< (people, frames, kBodyJoints, 3) recorded, from the pelvis
-  torch::Tensor height;  ///< (people, frames) of the pelvis since frame 0
-  torch::Tensor mask;    ///< (people, frames) 1 where recorded
+  torch::Tensor lean;       ///< (people, frames, 2) theta, phi since frame 0
+  torch::Tensor body;       ///< (people, kBodySize)
+  torch::Tensor joints;     ///< (people, frames, kBodyJoints, 3) recorded, from the pelvis
+  torch::Tensor height;     ///< (people, frames) of the pelvis since frame 0
+  torch::Tensor swings;     ///< (people, frames, 2) 1 where the right, left foot is on its way
+  torch::Tensor footholds;  ///< (people, frames, 2, 2) where toes stand or will, from the pelvis
+  torch::Tensor foothold_known;  ///< (people, frames, 2) 0 where the recording ends before
+  torch::Tensor mask;            ///< (people, frames) 1 where recorded
 
   int64_t frames() const { return joints.size(1); }
 };
@@ -23,6 +26,8 @@ struct PoseBatch {
 struct PosePaths {
   torch::Tensor joints;  ///< (people, frames, kBodyJoints, 3) from the pelvis, bones as in frame 0
   torch::Tensor height;  ///< (people, frames) of the pelvis since frame 0
+  torch::Tensor swings;  ///< (people, frames, 2) logit of the right, left foot on its way
+  torch::Tensor footholds;  ///< (people, frames, 2, 2) from the pelvis
 };
 
 /// From the path of a hip to the body around it: a recurrent network over the sequence, whose

@@ -30,7 +30,11 @@ std::vector<base::Field> PoseTraining::Fields() {
   std::vector<base::Field> fields = network.Fields();
   base::Append(fields,
                {base::Number("hip_distortion", &hip_distortion, 0, 1),
-                base::Number("speed_weight", &speed_weight, 0, 10), base::Flag("mirror", &mirror)});
+                base::Number("forecast_share", &forecast_share, 0, 1),
+                base::Number("single_share", &single_share, 0, 1),
+                base::Number("speed_weight", &speed_weight, 0, 10),
+                base::Number("foot_weight", &foot_weight, 0, 10),
+                base::Number("swing_weight", &swing_weight, 0, 10), base::Flag("mirror", &mirror)});
   return fields;
 }
 
@@ -44,11 +48,13 @@ std::vector<base::Field> PushTraining::Fields() {
   std::vector<base::Field> fields = {base::Text("protocol", &protocol, {"A", "B", "C"}),
                                      base::Number("hip_members", &hip_members, 1, 64),
                                      base::Number("pose_members", &pose_members, 1, 64),
-                                     base::Flag("rotate_validation", &rotate_validation)};
+                                     base::Flag("hold_out", &hold_out),
+                                     base::Number("every_take", &every_take, 1, 100)};
   base::Append(fields, base::Nested("hip", hip.Fields()));
   base::Append(fields, base::Nested("pose", pose.Fields()));
   base::Append(fields, base::Nested("hip_training", hip_training.Fields()));
   base::Append(fields, base::Nested("pose_training", pose_training.Fields()));
+  base::Append(fields, base::Nested("steps", steps.Fields()));
   return fields;
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/status.h"
 #include "core/push/learned/hip_config.h"
 #include "core/push/learned/pose_config.h"
+#include "core/push/restoration/step_planner.h"
 
 namespace poise::push {
 
@@ -26,7 +27,7 @@ struct NetworkTraining {
 
 /// How the hip network learns: whole roll-outs from frame 0.
 struct HipTraining {
-  NetworkTraining network = {.steps = 900, .batch_size = 8};  ///< samples are takes
+  NetworkTraining network = {.steps = 400, .batch_size = 16};  ///< samples are takes
   int first_frames = 30;          ///< [> 1] length of roll-outs at first
   double growing_share = 0.4;     ///< [0 to 1] of the steps in which they grow to all frames
   double velocity_weight = 0.05;  ///< [0 to 10] of hip speed errors beside place errors
@@ -37,7 +38,7 @@ struct HipTraining {
   std::vector<base::Field> Fields();
 };
 
-/// How the pose network learns: on recorded hips, bent a little.
+/// How the pose network learns: on recorded hips, bent a little, and on forecast ones.
 struct PoseTraining {
   NetworkTraining network = {  ///< samples are people
       .steps = 1200,
@@ -45,8 +46,14 @@ struct PoseTraining {
       .learning_rate = 3e-3,
       .validate_every = 60};
   double hip_distortion = 0.15;  ///< [0 to 1] deviation of a factor on the hip's path
-  double speed_weight = 0.02;    ///< [0 to 10] of errors in joint speed beside places
-  bool mirror = true;            ///< half of the people change left and right
+  /// [0 to 1] share of samples on hips as networks forecast them that did not learn from the take.
+  /// What is uncertain about the hip makes the body cautious.
+  double forecast_share = 0.5;
+  double single_share = 0.35;  ///< [0 to 1] of samples from takes of one person alone
+  double speed_weight = 0.02;  ///< [0 to 10] of errors in joint speed beside places
+  double foot_weight = 0.3;    ///< [0 to 10] of errors in footholds
+  double swing_weight = 0.03;  ///< [0 to 10] of the cross-entropy of which foot swings
+  bool mirror = true;          ///< half of the people change left and right
 
   std::vector<base::Field> Fields();
 };
@@ -54,15 +61,16 @@ struct PoseTraining {
 /// Everything that makes a push model: an ensemble of each network, whose means are the forecast.
 struct PushTraining {
   std::string protocol = "B";  ///< A, B or C: what the networks know of a push
-  int hip_members = 5;         ///< [1 to 64]
-  int pose_members = 3;        ///< [1 to 64]
-  /// Each member has other validation takes, so that together they learn from all training takes;
-  /// false: all choose on the same ones, which then judge the whole.
-  bool rotate_validation = true;
+  int hip_members = 6;         ///< [1 to 64] each has other validation takes
+  int pose_members = 3;        ///< [1 to 64] likewise
+  /// No member sees the validation takes of fold 0, so that they judge settings.
+  bool hold_out = false;
+  int every_take = 1;  ///< [1 to 100] learn from every so many training takes only
   HipConfig hip;
   PoseConfig pose;
   HipTraining hip_training;
   PoseTraining pose_training;
+  StepConfig steps;
 
   /// "recommended". Errors: kInvalidArgument UNKNOWN_PRESET.
   static StatusOr<PushTraining> FromPreset(std::string_view name);

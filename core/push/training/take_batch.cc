@@ -91,4 +91,14 @@ TakeBatch MakeBatch(std::span<const PushTake* const> takes, Protocol protocol,
   return batch;
 }
 
+TakeBatch Extended(TakeBatch batch, int64_t frames) {
+  const int64_t more = frames - batch.frames();
+  if (more <= 0) return batch;
+  for (torch::Tensor* tensor : {&batch.hip, &batch.lean, &batch.push}) {
+    *tensor = torch::constant_pad_nd(*tensor, {0, 0, 0, more});
+  }
+  batch.mask = torch::constant_pad_nd(batch.mask, {0, more});
+  return batch;
+}
+
 }  // namespace poise::push

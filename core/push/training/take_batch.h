@@ -36,6 +36,9 @@ struct TakeVariation {
 TakeBatch MakeBatch(std::span<const PushTake* const> takes, Protocol protocol,
                     const TakeVariation& variation, base::Random& random);
 
+/// With more frames at the end, in which nothing is recorded and nobody is pushed.
+TakeBatch Extended(TakeBatch batch, int64_t frames);
+
 }  // namespace poise::push
 
 #endif  // POISE_CORE_PUSH_TRAINING_TAKE_BATCH_H_

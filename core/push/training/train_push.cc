@@ -72,9 +72,13 @@ StatusOr<std::pair<Ensemble, std::string>> Decode(const std::string& checkpoint)
 /// Trains member after member.
 class EnsembleTraining {
  public:
-  EnsembleTraining(const PushTask& task, Protocol protocol, const base::RunContext& context,
-                   const learning::CheckpointSink& sink)
-      : task_(task), config_(task.config), protocol_(protocol), context_(context), sink_(sink) {
+  EnsembleTraining(const PushTask& task, std::vector<const PushTake*> takes, Protocol protocol,
+                   const base::RunContext& context, const learning::CheckpointSink& sink)
+      : config_(task.config),
+        takes_(std::move(takes)),
+        protocol_(protocol),
+        context_(context),
+        sink_(sink) {
     total_ = config_.hip_members * config_.hip_training.network.steps +
              config_.pose_members * config_.pose_training.network.steps;
   }
@@ -116,8 +120,18 @@ class EnsembleTraining {
     return member;
   }
 
-  TrainingTakes Split(int member) const {
-    return SplitTraining(task_.takes, config_.rotate_validation ? member : 0);
+  // Each hip network's validation takes, on which it stands for networks that have not seen them.
+  StatusOr<HipForecasts> ForecastHips() const {
+    HipForecasts forecasts;
+    base::Random random(context_.seed);
+    for (int member = 0; member < config_.hip_members; ++member) {
+      HipNet net(config_.hip);
+      POISE_RETURN_IF_ERROR(
+          learning::LoadState(done_.weights, fmt::format("hip{}.", member), *net));
+      AddForecasts(net, SplitTakes(takes_, member).validation, protocol_, config_.pose.lookahead,
+                   random, forecasts);
+    }
+    return forecasts;
   }
 
   void Note(const learning::TrainingReport& report, const std::string& curve,
@@ -129,30 +143,43 @@ class EnsembleTraining {
 
   Status TrainHipMember(int member, const Resumption& resumption) {
     POISE_ASSIGN_OR_RETURN(const TrainedHip trained,
-                           TrainHip(Split(member), protocol_, config_.hip, config_.hip_training,
-                                    MemberContext(), resumption));
+                           TrainHip(SplitTakes(takes_, member), protocol_, config_.hip,
+                                    config_.hip_training, MemberContext(), resumption));
     done_.hip_error += trained.report.best_validation;
     Note(trained.report, trained.curve_csv, fmt::format("hip{}", member));
     return learning::AppendState(*trained.net, fmt::format("hip{}.", member), done_.weights);
   }
 
   Status TrainPoseMember(int member, const Resumption& resumption) {
-    POISE_ASSIGN_OR_RETURN(
-        const TrainedPose trained,
-        TrainPose(Split(member), config_.pose, config_.pose_training, MemberContext(), resumption));
+    if (forecasts_.empty()) {
+      POISE_ASSIGN_OR_RETURN(forecasts_, ForecastHips());
+    }
+    POISE_ASSIGN_OR_RETURN(const TrainedPose trained,
+                           TrainPose(SplitTakes(takes_, member), forecasts_, config_.pose,
+                                     config_.pose_training, MemberContext(), resumption));
     done_.pose_error += trained.report.best_validation;
     Note(trained.report, trained.curve_csv, fmt::format("pose{}", member));
     return learning::AppendState(*trained.net, fmt::format("pose{}.", member), done_.weights);
   }
 
-  const PushTask& task_;
   const PushTraining& config_;
+  const std::vector<const PushTake*> takes_;
   const Protocol protocol_;
   const base::RunContext& context_;
   const learning::CheckpointSink& sink_;
   int64_t total_ = 0;
   Ensemble done_;
+  HipForecasts forecasts_;
 };
+
+// The training takes of which the config has the networks learn.
+std::vector<const PushTake*> TakesFor(const PushTask& task) {
+  std::vector<const PushTake*> all = TakesOf(task.takes, Split::kTrain);
+  if (task.config.hold_out) all = SplitTakes(all, 0).train;
+  std::vector<const PushTake*> chosen;
+  for (size_t i = 0; i < all.size(); i += task.config.every_take) chosen.push_back(all[i]);
+  return chosen;
+}
 
 motion::MotionSignature Signature() {
   return {.roles = motion::RequiredRoles(),
@@ -169,7 +196,8 @@ StatusOr<PushResult> TrainPush(const PushTask& task, const base::RunContext& con
   PushTraining config = task.config;
   POISE_RETURN_IF_ERROR(config.Validate());
   POISE_ASSIGN_OR_RETURN(const Protocol protocol, ParseProtocol(config.protocol));
-  const TrainingTakes split = SplitTraining(task.takes);
+  const std::vector<const PushTake*> takes = TakesFor(task);
+  const TrainingTakes split = SplitTakes(takes, 0);
   if (split.train.empty() || split.validation.empty()) {
     return base::InvalidArgument("NO_TAKES", "",
                                  fmt::format("{} training and {} validation takes, both need some",
@@ -180,7 +208,7 @@ StatusOr<PushResult> TrainPush(const PushTask& task, const base::RunContext& con
   if (checkpoint) {
     POISE_ASSIGN_OR_RETURN(std::tie(done, trainer), Decode(*checkpoint));
   }
-  EnsembleTraining training(task, protocol, context, sink);
+  EnsembleTraining training(task, takes, protocol, context, sink);
   POISE_ASSIGN_OR_RETURN(done, training.Run(std::move(done), std::move(trainer)));
 
   PushResult result;

@@ -32,9 +32,10 @@ struct PushResult {
   std::string curve_csv;  ///< the learning curves, one member after the other
 };
 
-/// Trains the members of both ensembles one after the other, each with a seed of its own from that
-/// of `context`, and each with other validation takes when `rotate_validation` says so. With the
-/// same seed the weights are the same bit for bit, however often the training was interrupted.
+/// Trains the members of both ensembles one after the other, hips first, each with a seed of its
+/// own from that of `context` and with other validation takes, so that together they learn from all
+/// training takes. Bodies learn on hips as networks forecast them that did not see the take. With
+/// the same seed the weights are the same bit for bit, however often the training was interrupted.
 /// The card's scores: `validation_hip_ade_m`, `validation_pose_m`, means over members.
 /// Errors: config errors; kInvalidArgument NO_TAKES; kDataLoss CORRUPT_CHECKPOINT; those of
 /// Trainer.

@@ -159,7 +159,7 @@ class Table {
         sets.made = sets.training;
       } else {
         POISE_ASSIGN_OR_RETURN(const auto model, Network(row, actor, seed));
-        POISE_ASSIGN_OR_RETURN(sets.made, MakeMotions(model, row, seed));
+        POISE_ASSIGN_OR_RETURN(sets.made, MakeMotions(model, row, actor, seed));
       }
       base::RunContext context;
       context.seed = seed;
@@ -169,7 +169,7 @@ class Table {
       for (const auto& [name, value] : measures.items()) {
         Report(row, actor, seed, name, value.get<double>());
       }
-      folds.push_back(motion::DrawSamplePair(sets.made, sets.reference, random));
+      folds.push_back(motion::DescriptorPair(sets.made, sets.reference));
     }
     if (folds.size() < 2) return absl::OkStatus();
     POISE_ASSIGN_OR_RETURN(const motion::MmdResult pooled,
@@ -211,7 +211,7 @@ class Table {
   }
 
   StatusOr<Features> MakeMotions(const artifacts::ModelArtifact& artifact, const Row& row,
-                                 uint64_t seed) {
+                                 const std::string& actor, uint64_t seed) {
     POISE_ASSIGN_OR_RETURN(const auto model, synthesis::VaeModel::Create(artifact));
     POISE_ASSIGN_OR_RETURN(const auto roles, motion::ReducedRoles(*model->skeleton()));
     const synthesis::LatentSampler sampler = model->MakeSampler({.mode = row.sampling});
@@ -222,7 +222,7 @@ class Table {
       POISE_ASSIGN_OR_RETURN(motion::Clip clip, model->Decode(sampler.Draw(random), "made"));
       clips.push_back(std::move(clip));
     }
-    std::fprintf(stderr, "%.0f samples per second\n", options_.samples / SecondsSince(began));
+    Report(row, actor, seed, "samples_per_s", options_.samples / SecondsSince(began));
     Features features;
     for (const motion::Clip& clip : clips) {
       POISE_ASSIGN_OR_RETURN(features.emplace_back(), motion::DescribeMotion(clip, roles));

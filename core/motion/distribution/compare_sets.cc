@@ -11,7 +11,7 @@ namespace {
 using Features = std::vector<MotionFeatures>;
 using Frames = std::vector<FrameFeatures>;
 
-enum Stream : uint64_t { kMadeSubset, kTrainingSubset, kMade, kTraining };
+enum Stream : uint64_t { kMade, kTraining };
 
 constexpr int kMaxMotions = 1'000'000;
 
@@ -20,16 +20,6 @@ Status RequireTwo(const char* name, const Features& motions) {
   return base::InvalidArgument(
       "TOO_FEW_MOTIONS", name,
       fmt::format("a set is compared by at least 2 motions, '{}' has {}", name, motions.size()));
-}
-
-// `count` of them, at random and without repetition.
-Features Subset(const Features& motions, size_t count, base::Random& random) {
-  Features subset = motions;
-  for (size_t i = 0; i < count; ++i) {
-    std::swap(subset[i], subset[i + random.Index(subset.size() - i)]);
-  }
-  subset.resize(count);
-  return subset;
 }
 
 Frames RotationsOf(const Features& motions) {
@@ -42,6 +32,25 @@ Eigen::MatrixXd Descriptors(const Features& motions) {
   Eigen::MatrixXd points(motions.size(), motions.front().descriptor.size());
   for (size_t i = 0; i < motions.size(); ++i) points.row(i) = motions[i].descriptor.transpose();
   return points;
+}
+
+// The least of `count` of the values, mean over all choices.
+double MeanLeast(std::vector<double> values, size_t count) {
+  std::sort(values.begin(), values.end());
+  const double n = static_cast<double>(values.size()), k = static_cast<double>(count);
+  double mean = 0, probability = k / n;  // that values[i] is the least
+  for (size_t i = 0; i < values.size(); ++i) {
+    mean += probability * values[i];
+    const double left = n - 1 - static_cast<double>(i);
+    probability *= left > 0 ? std::max(left + 1 - k, 0.0) / left : 0;
+  }
+  return mean;
+}
+
+double MeanNearest(const FrameFeatures& motion, const Frames& set, size_t count) {
+  std::vector<double> distances;
+  for (const FrameFeatures& other : set) distances.push_back(DtwDistance(motion, other));
+  return MeanLeast(std::move(distances), count);
 }
 
 template <typename Value>
@@ -77,7 +86,7 @@ class Comparison {
 
   StatusOr<MmdResult> Discrepancy(const Features& motions, uint64_t stream) const {
     base::Random random = Stream(stream);
-    const SamplePair pair = DrawSamplePair(motions, sets_.reference, random);
+    const SamplePair pair = DescriptorPair(motions, sets_.reference);
     return MaximumMeanDiscrepancy({&pair, 1}, config_.mmd, random);
   }
 
@@ -96,13 +105,11 @@ class Comparison {
                              ? fewest
                              : std::min<size_t>(static_cast<size_t>(config_.nearest_of), fewest);
     result_.nearest_of = static_cast<int>(count);
-    base::Random of_made = Stream(kMadeSubset), of_training = Stream(kTrainingSubset);
-    const Frames made = RotationsOf(Subset(sets_.made, count, of_made));
-    const Frames training = RotationsOf(Subset(sets_.training, count, of_training));
+    const Frames made = RotationsOf(sets_.made), training = RotationsOf(sets_.training);
     for (const MotionFeatures& motion : sets_.reference) {
       POISE_RETURN_IF_ERROR(context_.Check());
-      result_.min_dtw += FindNearest(motion.rotations, made).distance;
-      result_.min_dtw_training += FindNearest(motion.rotations, training).distance;
+      result_.min_dtw += MeanNearest(motion.rotations, made, count);
+      result_.min_dtw_training += MeanNearest(motion.rotations, training, count);
     }
     result_.min_dtw /= static_cast<double>(sets_.reference.size());
     result_.min_dtw_training /= static_cast<double>(sets_.reference.size());
@@ -182,10 +189,9 @@ std::vector<base::Field> SetComparison::Fields() {
           number("odd_lengths", &odd_lengths)};
 }
 
-SamplePair DrawSamplePair(const std::vector<MotionFeatures>& motions,
-                          const std::vector<MotionFeatures>& reference, base::Random& random) {
-  const size_t count = std::min(motions.size(), reference.size());
-  return {Descriptors(Subset(motions, count, random)), Descriptors(reference)};
+SamplePair DescriptorPair(const std::vector<MotionFeatures>& motions,
+                          const std::vector<MotionFeatures>& reference) {
+  return {Descriptors(motions), Descriptors(reference)};
 }
 
 StatusOr<SetComparison> CompareSets(const MotionSets& sets, const CompareConfig& config,

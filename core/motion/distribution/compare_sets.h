@@ -13,8 +13,8 @@ namespace poise::motion {
 
 struct CompareConfig {
   MmdConfig mmd;
-  /// [motions] of the made and of the training ones that the nearest is looked for in, drawn at
-  /// random: more find a nearer one. 0: as many as the smaller of both has.
+  /// [motions] of the made and of the training ones that the nearest is looked for in, mean over
+  /// all such subsets: more find a nearer one. 0: as many as the smaller of both has.
   int nearest_of = 0;
 
   std::vector<base::Field> Fields();
@@ -29,7 +29,7 @@ struct MotionSets {
 
 /// What a set of made motions is like (reference sec. 2.9 and 2.10). Distances are DTW [rad].
 struct SetComparison {
-  double mmd = 0;               ///< squared, between the made and as many reference motions
+  double mmd = 0;               ///< squared, between as many made as reference motions
   double mmd_p = 1;             ///< of its permutation test
   double mmd_training = 0;      ///< the same between training and reference motions
   int nearest_of = 0;           ///< size of the sets for min_dtw
@@ -51,10 +51,9 @@ struct SetComparison {
   std::vector<base::Field> Fields();
 };
 
-/// The descriptors of as many motions, drawn at random, as the reference has (or of all, if those
-/// are fewer), and of the reference: a fold of MaximumMeanDiscrepancy. Precondition: none is empty.
-SamplePair DrawSamplePair(const std::vector<MotionFeatures>& motions,
-                          const std::vector<MotionFeatures>& reference, base::Random& random);
+/// The descriptors of both: a fold of MaximumMeanDiscrepancy. Precondition: none is empty.
+SamplePair DescriptorPair(const std::vector<MotionFeatures>& motions,
+                          const std::vector<MotionFeatures>& reference);
 
 /// Draws with the seed of `context`.
 /// Errors: kInvalidArgument TOO_FEW_MOTIONS naming the set (under two); CONFIG_VALUE_OUT_OF_RANGE;

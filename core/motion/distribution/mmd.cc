@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr int kGaussians = 5;
 constexpr double kNarrowest = 0.25;  // of the mean squared distance
-constexpr int kMaxPermutations = 1'000'000;
+constexpr int kMaxRepetitions = 1'000'000;
 
 // A pair of samples as the kernel of all its points; x's come first.
 struct KernelMatrix {
@@ -85,18 +86,18 @@ void Shuffle(std::vector<int>& order, base::Random& random) {
   for (size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[random.Index(i + 1)]);
 }
 
-}  // namespace
+bool IsUnequal(const SamplePair& pair) { return pair.x.rows() > pair.y.rows(); }
 
-std::vector<base::Field> MmdConfig::Fields() {
-  return {base::Text("estimator", &estimator, {"unbiased", "biased"}),
-          base::Number("permutations", &permutations, 0, kMaxPermutations)};
+SamplePair DrawEqual(const SamplePair& pair, base::Random& random) {
+  std::vector<int> order(pair.x.rows());
+  std::iota(order.begin(), order.end(), 0);
+  Shuffle(order, random);
+  order.resize(std::min(pair.x.rows(), pair.y.rows()));
+  return {pair.x(order, Eigen::all), pair.y};
 }
 
-StatusOr<MmdResult> MaximumMeanDiscrepancy(std::span<const SamplePair> pairs,
-                                           const MmdConfig& config, base::Random& random) {
-  MmdConfig copy = config;
-  POISE_RETURN_IF_ERROR(base::CheckRanges(copy.Fields()));
-  POISE_RETURN_IF_ERROR(Check(pairs));
+MmdResult Discrepancy(std::span<const SamplePair> pairs, const MmdConfig& config,
+                      base::Random& random) {
   std::vector<KernelMatrix> kernels;
   std::vector<std::vector<int>> orders;
   for (const SamplePair& pair : pairs) {
@@ -121,6 +122,33 @@ StatusOr<MmdResult> MaximumMeanDiscrepancy(std::span<const SamplePair> pairs,
     result.p_value = static_cast<double>(as_far) / (config.permutations + 1);
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<base::Field> MmdConfig::Fields() {
+  return {base::Text("estimator", &estimator, {"unbiased", "biased"}),
+          base::Number("permutations", &permutations, 0, kMaxRepetitions),
+          base::Number("draws", &draws, 1, kMaxRepetitions)};
+}
+
+StatusOr<MmdResult> MaximumMeanDiscrepancy(std::span<const SamplePair> pairs,
+                                           const MmdConfig& config, base::Random& random) {
+  MmdConfig copy = config;
+  POISE_RETURN_IF_ERROR(base::CheckRanges(copy.Fields()));
+  POISE_RETURN_IF_ERROR(Check(pairs));
+  if (std::none_of(pairs.begin(), pairs.end(), IsUnequal)) {
+    return Discrepancy(pairs, config, random);
+  }
+  MmdResult mean{.squared_mmd = 0, .p_value = 0};
+  for (int i = 0; i < config.draws; ++i) {
+    std::vector<SamplePair> drawn;
+    for (const SamplePair& pair : pairs) drawn.push_back(DrawEqual(pair, random));
+    const MmdResult result = Discrepancy(drawn, config, random);
+    mean.squared_mmd += result.squared_mmd / config.draws;
+    mean.p_value += result.p_value / config.draws;
+  }
+  return mean;
 }
 
 }  // namespace poise::motion

@@ -19,6 +19,9 @@ struct MmdConfig {
   /// small samples.
   std::string estimator = "unbiased";
   int permutations = 1000;  ///< [>= 0] for the p-value; 0: none
+  /// [> 0] Of a sample x with more points than its y as many as y has are drawn, so often: which
+  /// few they are decides much (the authors: 10).
+  int draws = 100;
 
   std::vector<base::Field> Fields();
 };
@@ -29,9 +32,10 @@ struct SamplePair {
 };
 
 struct MmdResult {
-  double squared_mmd = 0;  ///< mean over pairs
+  double squared_mmd = 0;  ///< mean over pairs and draws
   /// Share of random re-labellings, each within its pair, that are at least as far apart (the
-  /// observed labels count as one): how often so much comes of nothing. 1 without permutations.
+  /// observed labels count as one): how often so much comes of nothing. Mean over draws; 1 without
+  /// permutations.
   double p_value = 1;
 };
 

@@ -95,6 +95,23 @@ TEST(CompareSetsTest, DiversityAndNoveltyAreMeansOfDistances) {
   EXPECT_EQ(comparison.nearest_of, 3);
 }
 
+TEST(CompareSetsTest, TheNearestIsTheMeanOverAllSubsets) {
+  const MotionSets sets{Swings(40, 5, 0.3), Swings(1, 4, 0.3), Swings(20, 2, 0.3)};
+  const auto comparison = CompareSets(sets, {.mmd = {}, .nearest_of = 2}, {});
+  ASSERT_TRUE(comparison.ok()) << comparison.status();
+  double mean = 0;
+  for (const MotionFeatures& reference : sets.reference) {
+    const auto distance = [&](int i) {
+      return DtwDistance(reference.rotations, sets.made[i].rotations);
+    };
+    for (int i = 0; i < 5; ++i) {
+      for (int j = 0; j < i; ++j) mean += std::min(distance(i), distance(j)) / (10 * 2);
+    }
+  }
+  EXPECT_EQ(comparison->nearest_of, 2);
+  EXPECT_NEAR(comparison->min_dtw, mean, 1e-9);
+}
+
 TEST(CompareSetsTest, MotionsThatHardlyMoveAreToldApart) {
   const SetComparison still = Compare({Swings(40, 8, 0.02), Swings(1, 8, 0.3), Swings(20, 8, 0.3)});
   const SetComparison alike = Compare({Swings(40, 8, 0.3), Swings(1, 8, 0.3), Swings(20, 8, 0.3)});
@@ -128,7 +145,7 @@ TEST(CompareSetsTest, KicksOfAnotherActorAreNearerThanJogs) {
   const SetComparison jogs = Compare({describe("jog", "bd", true), training, held_out});
   std::printf("kicks beside kicks of bd: mmd %.3f, min DTW %.3f; jogs: mmd %.3f, min DTW %.3f\n",
               jogs.mmd_training, jogs.min_dtw_training, jogs.mmd, jogs.min_dtw);
-  EXPECT_GT(jogs.mmd, 2 * jogs.mmd_training);
+  EXPECT_GT(jogs.mmd, 1.5 * jogs.mmd_training);
   EXPECT_LT(jogs.mmd_p, 0.01);
   EXPECT_GT(jogs.min_dtw, jogs.min_dtw_training);
 }

@@ -59,11 +59,21 @@ TEST(MmdTest, OfOneDistributionTheUnbiasedOneIsZeroOnAverage) {
   EXPECT_GT(biased, 0.5);
 }
 
+TEST(MmdTest, OfALargerSampleTheMeanOverDrawsOfAsManyCounts) {
+  const Eigen::MatrixXd x = Eigen::Vector3d(0, 1, 5), y = Eigen::Vector2d(0, 3);
+  const MmdConfig config{.permutations = 0, .draws = 4000};
+  double mean = 0;
+  for (const auto& rows : {std::vector{0, 1}, std::vector{0, 2}, std::vector{1, 2}}) {
+    mean += Mmd({{x(rows, Eigen::all), y}}, config).squared_mmd / 3;
+  }
+  EXPECT_NEAR(Mmd({{x, y}}, config).squared_mmd, mean, 0.05);
+}
+
 TEST(MmdTest, PValuesOfOneDistributionAreEven) {
   base::Random random(3);
   int below_a_fifth = 0;
   for (uint64_t i = 0; i < 200; ++i) {
-    const SamplePair pair{Normals(7, 2, 0, random), Normals(6, 2, 0, random)};
+    const SamplePair pair{Normals(6, 2, 0, random), Normals(6, 2, 0, random)};
     below_a_fifth += Mmd({pair}, {.permutations = 99}, i).p_value <= 0.2 ? 1 : 0;
   }
   // 40 expected, deviation 5.7.

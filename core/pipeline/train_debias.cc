@@ -20,8 +20,12 @@ StatusOr<TrainedModel> TrainDebias(const base::Json& parameters, std::string_vie
   POISE_ASSIGN_OR_RETURN(const motion::FoldClips fold,
                          motion::ChooseFold(set.clips, {.action_class = spec.action_class,
                                                         .held_out = spec.hold_out}));
-  for (const size_t i : fold.train) task.train.push_back(std::move(set.clips[i].clip));
-  for (const size_t i : fold.held_out) task.held_out.push_back(std::move(set.clips[i].clip));
+  for (const auto& [indices, clips] :
+       {std::pair(&fold.train, &task.train), std::pair(&fold.held_out, &task.held_out)}) {
+    for (const size_t i : *indices) {
+      clips->push_back({std::move(set.clips[i].clip), std::move(set.clips[i].actor)});
+    }
+  }
   task.preset = spec.preset;
   task.data = spec.data;
   task.data_fingerprint = spec.DataFingerprint();

@@ -36,7 +36,7 @@ std::vector<base::Field> DebiasInput::Fields() {
 
 std::vector<base::Field> FootHold::Fields() {
   return {base::Flag("enabled", &enabled), base::Number("low_m", &low_m, 0, 10),
-          base::Number("high_m", &high_m, 0, 10)};
+          base::Number("high_m", &high_m, 0, 10), base::Flag("root", &root)};
 }
 
 DebiasConfig::DebiasConfig()
@@ -53,14 +53,14 @@ StatusOr<DebiasConfig> DebiasConfig::FromPreset(std::string_view preset) {
 
 std::vector<base::Field> DebiasConfig::Fields() {
   std::vector<base::Field> fields = base::Nested("input", input.Fields());
-  base::Append(
-      fields,
-      {base::Number("hidden", &hidden, 1, 8192), base::Number("layers", &layers, 0, 16),
-       base::Number("dropout", &dropout, 0, 0.999), base::Number("l2_weight", &l2_weight, 0, 1e6),
-       base::Flag("mirror", &mirror), base::Number("l1_weight", &l1_weight, 0, 1e6),
-       base::Number("cutoff_hz", &cutoff_hz, 0, 1000),
-       base::Text("effort", &effort, {"instant", "fast"}),
-       base::Text("correction", &correction, {"recommended", "paper"})});
+  base::Append(fields,
+               {base::Number("hidden", &hidden, 1, 8192), base::Number("layers", &layers, 0, 16),
+                base::Number("dropout", &dropout, 0, 0.999),
+                base::Number("l2_weight", &l2_weight, 0, 1e6), base::Flag("choose_l2", &choose_l2),
+                base::Flag("mirror", &mirror), base::Number("l1_weight", &l1_weight, 0, 1e6),
+                base::Number("cutoff_hz", &cutoff_hz, 0, 1000),
+                base::Text("effort", &effort, {"instant", "fast"}),
+                base::Text("correction", &correction, {"recommended", "paper"})});
   base::Append(fields, base::Nested("hold", hold.Fields()));
   base::Append(fields, base::Nested("optimizer", optimizer.Fields()));
   base::Append(fields, base::Nested("trainer", trainer.Fields()));
@@ -69,7 +69,13 @@ std::vector<base::Field> DebiasConfig::Fields() {
 
 Status DebiasConfig::Validate() const {
   DebiasConfig copy = *this;
-  return base::CheckRanges(copy.Fields());
+  POISE_RETURN_IF_ERROR(base::CheckRanges(copy.Fields()));
+  if (layers == 0 && (dropout > 0 || l1_weight > 0 || l2_weight == 0)) {
+    return base::InvalidArgument("CONTRADICTING_SETTINGS", "layers",
+                                 "a linear map is found in closed form: layers 0 needs an "
+                                 "l2_weight above 0, and no dropout and no l1_weight");
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace poise::correction

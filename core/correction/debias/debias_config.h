@@ -24,6 +24,7 @@ struct FootHold {
   bool enabled = true;
   double low_m = 0.03;   ///< [m, >= 0] up to here wholly
   double high_m = 0.12;  ///< [m, >= 0] from here on not at all
+  bool root = true;      ///< the root, too, as far as one of them stays
 
   std::vector<base::Field> Fields();
 };
@@ -31,14 +32,19 @@ struct FootHold {
 /// How a character's habits are learned. Defaults are the preset `recommended`.
 struct DebiasConfig {
   DebiasInput input;
-  int layers = 0;      ///< [>= 0] hidden layers; 0: a linear map, which few clips can teach
+  /// [>= 0] Hidden layers; 0: a linear map, which few clips can teach. It is found in closed form:
+  /// optimizer and trainer are not used then.
+  int layers = 0;
   int hidden = 256;    ///< [> 0] units of each hidden layer
   double dropout = 0;  ///< [0 to 1) of the inputs while it learns
   /// [>= 0] Of the weights' squares (per output) and of their sizes, against the mean square of
   /// what is not undone in units of its spread: ridge regression. What few actors have in common
   /// stays.
-  double l2_weight = 0.5;
+  double l2_weight = 0.1;
   double l1_weight = 0;
+  /// Of a linear map: the root and each joint get the l2_weight of kL2Candidates, or no correction,
+  /// that helps the actors of the training who are left out one at a time most. Needs two actors.
+  bool choose_l2 = true;
   bool mirror = true;  ///< every pair teaches with left and right swapped, too
   /// [Hz, >= 0] Zero-phase low-pass of what the network changes, which is found frame by frame; 0:
   /// none.

@@ -10,9 +10,10 @@
 namespace poise::correction {
 namespace {
 
-StatusOr<std::vector<DebiasPair>> Imitate(const motion::Clip& clip,
+StatusOr<std::vector<DebiasPair>> Imitate(const DebiasClip& labelled,
                                           const CorrectionConfig& correction,
                                           const base::RunContext& context) {
+  const motion::Clip& clip = labelled.clip;
   POISE_ASSIGN_OR_RETURN(const motion::JointRoles roles,
                          motion::JointRoles::Detect(*clip.skeleton()));
   POISE_ASSIGN_OR_RETURN(const Corrector corrector, Corrector::Create(clip, roles, correction));
@@ -22,8 +23,8 @@ StatusOr<std::vector<DebiasPair>> Imitate(const motion::Clip& clip,
   if (!learned.ok() && base::ErrorReason(learned.status()) == "DIVERGED") return pairs;
   POISE_RETURN_IF_ERROR(learned.status());
   if (learned->best.score.completed) {
-    pairs.push_back(
-        {std::move(learned->best.clip), reference.source_clip(), corrector.shared_model()});
+    pairs.push_back({std::move(learned->best.clip), reference.source_clip(),
+                     corrector.shared_model(), labelled.actor});
   }
   return pairs;
 }
@@ -37,14 +38,14 @@ StatusOr<CorrectionConfig> CorrectionOf(const DebiasConfig& config) {
   return correction;
 }
 
-StatusOr<std::vector<DebiasPair>> MakeDebiasPairs(const std::vector<motion::Clip>& clips,
+StatusOr<std::vector<DebiasPair>> MakeDebiasPairs(const std::vector<DebiasClip>& clips,
                                                   const CorrectionConfig& correction,
                                                   const base::RunContext& context) {
   std::vector<DebiasPair> pairs;
   for (size_t i = 0; i < clips.size(); ++i) {
     StatusOr<std::vector<DebiasPair>> one = Imitate(clips[i], correction, context);
     if (!one.ok()) {
-      return base::Annotate(one.status(), fmt::format("clip '{}'", clips[i].name()));
+      return base::Annotate(one.status(), fmt::format("clip '{}'", clips[i].clip.name()));
     }
     for (DebiasPair& pair : *one) pairs.push_back(std::move(pair));
     context.Report({.step = static_cast<int64_t>(i + 1),

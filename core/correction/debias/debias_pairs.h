@@ -1,6 +1,7 @@
 #ifndef POISE_CORE_CORRECTION_DEBIAS_DEBIAS_PAIRS_H_
 #define POISE_CORE_CORRECTION_DEBIAS_DEBIAS_PAIRS_H_
 
+#include <string>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -14,6 +15,12 @@ namespace poise::correction {
 struct DebiasPair {
   motion::Clip imitated, original;
   physics::HumanoidModelPtr body;  ///< the character
+  std::string actor = {};          ///< who is left out together
+};
+
+struct DebiasClip {
+  motion::Clip clip;
+  std::string actor = {};
 };
 
 /// The correction whose habits a config wants learned.
@@ -23,7 +30,7 @@ StatusOr<CorrectionConfig> CorrectionOf(const DebiasConfig& config);
 /// it did not complete teach nothing and are left out. Progress: clips.
 /// Errors: those of JointRoles, Corrector::Create and Corrector::Correct but DIVERGED, with the
 /// clip's name.
-StatusOr<std::vector<DebiasPair>> MakeDebiasPairs(const std::vector<motion::Clip>& clips,
+StatusOr<std::vector<DebiasPair>> MakeDebiasPairs(const std::vector<DebiasClip>& clips,
                                                   const CorrectionConfig& correction,
                                                   const base::RunContext& context);
 

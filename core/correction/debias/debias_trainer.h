@@ -14,8 +14,8 @@ namespace poise::correction {
 
 /// What is learned, from what.
 struct DebiasTask {
-  std::vector<motion::Clip> train;     ///< originals, all at one rate
-  std::vector<motion::Clip> held_out;  ///< for the scores alone; may be empty
+  std::vector<DebiasClip> train;     ///< originals, all at one rate
+  std::vector<DebiasClip> held_out;  ///< for the scores alone; may be empty
   DebiasConfig config;
   // For the card:
   std::string preset = "recommended";
@@ -36,7 +36,9 @@ struct DebiasResult {
 /// `context`. `checkpoint` is what an earlier attempt gave to `sink`; with one thread the result is
 /// then the same bit for bit. The card's scores, of the clips learned from and with `held_out_` of
 /// the others: `imitated_rad`, `debiased_rad` (mean angle to the original over joints and frames),
-/// `imitated_m`, `debiased_m` (of the root).
+/// `imitated_m`, `debiased_m` (of the root). Where choose_l2 applies also `left_out_...`: of each
+/// actor learned from, by a map that learned from the rest; if that does not bring them nearer, the
+/// model changes nothing.
 /// Errors: those of DebiasConfig::Validate, MakeDebiasPairs and learning::Trainer;
 /// kFailedPrecondition NOTHING_IMITATED (no clip was completed), MIXED_RATES.
 StatusOr<DebiasResult> TrainDebias(const DebiasTask& task, const base::RunContext& context,

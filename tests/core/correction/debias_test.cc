@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/random.h"
 #include "core/correction/debias/debias_net.h"
 #include "core/correction/debias/debias_trainer.h"
 #include "core/correction/debias/debiaser.h"
 #include "core/correction/debias/foot_hold.h"
+#include "core/correction/debias/ridge.h"
 #include "core/correction/preparation/foot_track.h"
 #include "core/learning/nn/module_state.h"
 #include "tests/core/correction/tracked_clip.h"
@@ -172,6 +174,76 @@ TEST_F(DebiasTest, AHabitIsUndoneOnAMotionThatWasNotLearnedFrom) {
   EXPECT_EQ(result->model.card.signature.frame_rate, 120);
 }
 
+TEST_F(DebiasTest, WhatActorsShareIsUndoneByTheLinearMap) {
+  std::vector<DebiasPair> train;
+  for (const double amplitude : {0.3, 0.6, 0.8, 1.0}) {
+    train.push_back(Pair(tracked_, amplitude));
+    train.back().actor = std::to_string(amplitude);
+  }
+  DebiasConfig config;
+  config.mirror = false;  // the habit has a side
+  config.hold.enabled = false;
+  const DebiasTask task{.train = {}, .held_out = {}, .config = config};
+  const auto result = TrainDebias(task, train, {Pair(tracked_, 0.7)}, {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  const auto& scores = result->model.card.scores;
+  EXPECT_LT(scores.at("held_out_debiased_rad"), 0.3 * scores.at("held_out_imitated_rad"));
+  EXPECT_LT(scores.at("left_out_debiased_rad"), 0.6 * scores.at("left_out_imitated_rad"));
+}
+
+TEST_F(DebiasTest, WhatHelpsNobodyWhoIsLeftOutChangesNothing) {
+  std::vector<DebiasPair> train;
+  // Each actor's elbow hangs another way.
+  for (const double way : {-0.2, 0.2}) {
+    DebiasPair pair = Pair(tracked_, 1);
+    pair.imitated = pair.original;
+    for (int f = 0; f < pair.imitated.num_frames(); ++f) {
+      pair.original.rotation(f, kElbow) = math::FromRotationVector(Vec3(0, way, 0));
+      pair.imitated.rotation(f, kElbow) = Quat::Identity();
+    }
+    pair.actor = std::to_string(way);
+    train.push_back(std::move(pair));
+  }
+  DebiasConfig config;
+  config.mirror = false;
+  const DebiasTask task{.train = {}, .held_out = {}, .config = config};
+  const auto result = TrainDebias(task, train, {}, {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  const auto& scores = result->model.card.scores;
+  EXPECT_GT(scores.at("left_out_debiased_rad"), scores.at("left_out_imitated_rad"));
+  EXPECT_EQ(scores.at("debiased_rad"), scores.at("imitated_rad"));
+}
+
+TEST(RidgeTest, IsTheLeastPenalisedSumOfSquares) {
+  // One input: weight = cov(x, y) / (var(x) + l2), by hand.
+  ActorFrames actor{FrameRows(4, 1), FrameRows::Zero(4, kCorrectionWidth)};
+  actor.inputs << -1, 0, 1, 2;
+  actor.corrections.col(7) << 1, 2, 4, 5;
+  const RidgeFit fit = FitRidge({actor}, 0.75);
+  EXPECT_NEAR(fit.weight(0, 7), 1.75 / (1.25 + 0.75), 1e-9);
+  EXPECT_NEAR(fit.bias(7), 3 - 0.5 * fit.weight(0, 7), 1e-9);
+  EXPECT_EQ(fit.weight(0, 8), 0);
+}
+
+TEST(RidgeTest, EachJointGetsWhatHelpsActorsWhoAreLeftOut) {
+  base::Random random(3);
+  std::vector<ActorFrames> actors;
+  for (int a = 0; a < 4; ++a) {
+    ActorFrames actor{FrameRows(200, 3), FrameRows(200, kCorrectionWidth)};
+    for (float& x : actor.inputs.reshaped()) x = static_cast<float>(random.Normal());
+    actor.corrections.setZero();
+    // Joint 2 follows the first input in all of them, joint 5 in each another way.
+    actor.corrections.col(3 + 6 * 2) = 0.5F * actor.inputs.col(0);
+    actor.corrections.col(3 + 6 * 5) = (a % 2 == 0 ? 0.5F : -0.5F) * actor.inputs.col(0);
+    actors.push_back(std::move(actor));
+  }
+  const RidgeFit fit = FitRidgeByActors(actors);
+  EXPECT_GT(fit.weight(0, 3 + 6 * 2), 0.45);
+  EXPECT_EQ(fit.weight.col(3 + 6 * 5).norm(), 0);
+  ASSERT_EQ(fit.left_out_errors.size(), kL2Candidates.size());
+  EXPECT_GT(fit.left_out_uncorrected, 0);
+}
+
 TEST_F(DebiasTest, AnInterruptedTrainingEndsWithTheSameModel) {
   const std::vector<DebiasPair> train = {Pair(tracked_, 0.5), Pair(tracked_, 1)};
   const DebiasTask task{.train = {}, .held_out = {}, .config = SmallConfig(30)};
@@ -193,7 +265,7 @@ TEST_F(DebiasTest, AnInterruptedTrainingEndsWithTheSameModel) {
 
 TEST_F(DebiasTest, TheCharactersOwnHabitsAreLearnedFromClips) {
   const DebiasTask task{
-      .train = {SwayingClip(2)}, .held_out = {SwayingClip(1.5)}, .config = SmallConfig(100)};
+      .train = {{SwayingClip(2)}}, .held_out = {{SwayingClip(1.5)}}, .config = SmallConfig(100)};
   const auto result = TrainDebias(task, WithSeed(1));
   ASSERT_TRUE(result.ok()) << result.status();
   const auto& scores = result->model.card.scores;
@@ -216,7 +288,8 @@ TEST_F(DebiasTest, FeetThatStandStayWhereTheyWereImitated) {
       EXPECT_LT(math::GeodesicDistance(was[side].rotations[f], is[side].rotations[f]), 1e-6);
     }
   }
-  EXPECT_LT((held.root_position(30) - debiased.root_position(30)).norm(), 1e-9);
+  // The pelvis sinks a little, so that straight legs reach.
+  EXPECT_LT((held.root_position(30) - imitated.root_position(30)).norm(), 2e-3);
   EXPECT_LT(math::GeodesicDistance(held.rotation(30, 1), debiased.rotation(30, 1)), 1e-9);
 }
 
@@ -233,6 +306,8 @@ TEST_F(DebiasTest, RefusesWhatDoesNotFit) {
   DebiasConfig config;
   config.dropout = 1;
   EXPECT_EQ(base::ErrorField(config.Validate()), "dropout");
+  config.dropout = 0.1;
+  EXPECT_EQ(base::ErrorReason(config.Validate()), "CONTRADICTING_SETTINGS");
   EXPECT_EQ(base::ErrorReason(DebiasConfig::FromPreset("best").status()), "UNKNOWN_PRESET");
   EXPECT_TRUE(DebiasConfig::FromPreset("paper")->Validate().ok());
 }

@@ -13,6 +13,7 @@
 
 #include "CLI/CLI.hpp"
 #include "core/push/evaluation/evaluate_push.h"
+#include "core/push/ldp/forecast_ldp.h"
 #include "core/push/takes/fzj_takes.h"
 
 namespace poise {
@@ -74,7 +75,7 @@ Status Run(const Options& options) {
       push::EvaluatePush(named,
                          options.on == "validation" ? push::SplitTraining(takes).validation
                                                     : push::TakesOf(takes, push::Split::kTest),
-                         context));
+                         context, push::ldp::ForecastTakes));
   for (const push::ForecasterScores& rows : scores) Print(rows);
   if (!options.out.empty()) std::ofstream(options.out) << push::PushScoresCsv(scores);
   return absl::OkStatus();

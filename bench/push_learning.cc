@@ -2,6 +2,7 @@
 //
 //   push_learning --data DIR/fzj_push --seed 1 --save models/push-fzj/1
 //   push_learning --data DIR/fzj_push --seed 1 --set protocol=A --save /tmp/a
+//   push_learning --data DIR/fzj_push --seed 1 --preset paper --save /tmp/paper
 //
 // Goes on from SAVE.checkpoint when it was interrupted. Progress goes to standard error.
 #include <fmt/format.h>
@@ -13,8 +14,8 @@
 
 #include "CLI/CLI.hpp"
 #include "core/artifacts/model_artifact.h"
+#include "core/push/presets/train_preset.h"
 #include "core/push/takes/fzj_takes.h"
-#include "core/push/training/train_push.h"
 
 namespace poise {
 namespace {
@@ -33,16 +34,14 @@ StatusOr<std::vector<push::PushTake>> ReadTakes(const std::string& folder) {
   return takes;
 }
 
-StatusOr<push::PushTraining> Training(const Options& options) {
-  POISE_ASSIGN_OR_RETURN(push::PushTraining config, push::PushTraining::FromPreset(options.preset));
+base::Overrides OverridesOf(const Options& options) {
   base::Overrides overrides;
   for (const std::string& assignment : options.assignments) {
     const size_t equals = assignment.find('=');
     overrides[assignment.substr(0, equals)] =
         equals == std::string::npos ? "" : assignment.substr(equals + 1);
   }
-  POISE_RETURN_IF_ERROR(base::ApplyOverrides(overrides, config.Fields()));
-  return config;
+  return overrides;
 }
 
 std::optional<std::string> ReadFile(const std::string& path) {
@@ -63,7 +62,6 @@ void PrintProgress(const base::Progress& progress) {
 
 Status Run(const Options& options) {
   POISE_ASSIGN_OR_RETURN(const std::vector<push::PushTake> takes, ReadTakes(options.data));
-  POISE_ASSIGN_OR_RETURN(const push::PushTraining config, Training(options));
   base::RunContext context;
   context.seed = options.seed;
   context.progress = PrintProgress;
@@ -75,12 +73,12 @@ Status Run(const Options& options) {
                                         return absl::OkStatus();
                                       }};
   POISE_ASSIGN_OR_RETURN(const push::PushResult trained,
-                         push::TrainPush({.takes = takes,
-                                          .config = config,
-                                          .preset = options.preset,
-                                          .data = "FZJ Push",
-                                          .data_license = options.license},
-                                         context, ReadFile(checkpoint), sink));
+                         push::TrainPreset({.takes = takes,
+                                            .preset = options.preset,
+                                            .overrides = OverridesOf(options),
+                                            .data = "FZJ Push",
+                                            .data_license = options.license},
+                                           context, ReadFile(checkpoint), sink));
   std::filesystem::create_directories(options.save);
   POISE_RETURN_IF_ERROR(artifacts::WriteModelFolder(trained.model, options.save));
   std::ofstream(options.save + "_curve.csv") << trained.curve_csv;
@@ -103,7 +101,7 @@ int main(int argc, char** argv) {
   app.add_option("--data", options.data, "Folder of FZJ Push")->required();
   app.add_option("--save", options.save, "Folder of the model")->required();
   app.add_option("--seed", options.seed);
-  app.add_option("--preset", options.preset, "recommended");
+  app.add_option("--preset", options.preset, "recommended | paper");
   app.add_option("--set", options.assignments, "KEY=VALUE of the training; repeatable");
   app.add_option("--license", options.license, "Of the data, for the model's card");
   CLI11_PARSE(app, argc, argv);

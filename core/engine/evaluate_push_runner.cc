@@ -1,10 +1,10 @@
 #include "core/engine/evaluate_push_runner.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/engine/job_files.h"
-#include "core/pipeline/evaluate_push.h"
 
 namespace poise::engine {
 namespace {
@@ -33,6 +33,8 @@ base::Json Report(const std::vector<push::ForecasterScores>& scores) {
 
 class EvaluatePushRunner : public jobs::JobRunner {
  public:
+  explicit EvaluatePushRunner(push::PaperForecaster paper) : paper_(std::move(paper)) {}
+
   StatusOr<jobs::RunOutput> Run(const jobs::RunInput& input,
                                 const jobs::JobContext& context) override {
     POISE_ASSIGN_OR_RETURN(const pipeline::EvaluatePushSpec spec,
@@ -47,19 +49,31 @@ class EvaluatePushRunner : public jobs::JobRunner {
     base::RunContext run = context.run;
     run.seed = input.seed;
     POISE_ASSIGN_OR_RETURN(const std::vector<push::ForecasterScores> scores,
-                           pipeline::EvaluatePush(spec, takes, model, run));
+                           pipeline::EvaluatePush(spec, takes, model, run, paper_));
     jobs::RunOutput output;
     output.report = {{"forecasters", Report(scores)}};
     POISE_RETURN_IF_ERROR(
         WriteOutput(input, "scores.csv", "text/csv", push::PushScoresCsv(scores), output));
     return output;
   }
+
+ private:
+  const push::PaperForecaster paper_;
 };
 
 }  // namespace
 
-std::unique_ptr<jobs::JobRunner> MakeEvaluatePushRunner() {
-  return std::make_unique<EvaluatePushRunner>();
+std::unique_ptr<jobs::JobRunner> MakeEvaluatePushRunner(push::PaperForecaster paper) {
+  return std::make_unique<EvaluatePushRunner>(std::move(paper));
+}
+
+std::unique_ptr<jobs::JobRunner> MakeLightEvaluatePushRunner() {
+  return MakeEvaluatePushRunner({});
+}
+
+bool EvaluatePushNeedsTorch(const base::Json& parameters) {
+  const auto spec = pipeline::EvaluatePushSpec::FromParameters(parameters);
+  return spec.ok() && !spec->model_artifact.empty();
 }
 
 }  // namespace poise::engine

@@ -34,7 +34,7 @@ const std::vector<Flow>& FlowTable() {
       {"train_push", "networks that forecast what people do after a push",
        Validate<pipeline::TrainPushSpec>, nullptr, nullptr, /*trains=*/true},
       {"evaluate_push", "scores of push forecasts on recorded takes",
-       Validate<pipeline::EvaluatePushSpec>, MakeEvaluatePushRunner},
+       Validate<pipeline::EvaluatePushSpec>, MakeLightEvaluatePushRunner, EvaluatePushNeedsTorch},
       {"train_vae", "a variational autoencoder of one class's motions",
        Validate<pipeline::TrainVaeSpec>, nullptr, nullptr, /*trains=*/true},
       {"train_debias", "undoes what imitation changes about a class's motions",

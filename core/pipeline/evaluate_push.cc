@@ -9,7 +9,8 @@ namespace poise::pipeline {
 StatusOr<std::vector<push::ForecasterScores>> EvaluatePush(const EvaluatePushSpec& spec,
                                                            std::string_view take_file,
                                                            std::string_view packed_model,
-                                                           const base::RunContext& context) {
+                                                           const base::RunContext& context,
+                                                           const push::PaperForecaster& paper) {
   POISE_ASSIGN_OR_RETURN(const std::vector<push::PushTake> takes,
                          push::DecodeTakes(take_file, spec.data_artifact));
   artifacts::ModelArtifact model;
@@ -18,7 +19,7 @@ StatusOr<std::vector<push::ForecasterScores>> EvaluatePush(const EvaluatePushSpe
     POISE_ASSIGN_OR_RETURN(model, artifacts::UnpackModel(packed_model, spec.model_artifact));
     models.push_back({spec.model.empty() ? "model" : spec.model, model});
   }
-  return push::EvaluatePush(models, push::TakesOf(takes, push::Split::kTest), context);
+  return push::EvaluatePush(models, push::TakesOf(takes, push::Split::kTest), context, paper);
 }
 
 }  // namespace poise::pipeline

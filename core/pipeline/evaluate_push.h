@@ -16,7 +16,8 @@ namespace poise::pipeline {
 StatusOr<std::vector<push::ForecasterScores>> EvaluatePush(const EvaluatePushSpec& spec,
                                                            std::string_view take_file,
                                                            std::string_view packed_model,
-                                                           const base::RunContext& context);
+                                                           const base::RunContext& context,
+                                                           const push::PaperForecaster& paper = {});
 
 }  // namespace poise::pipeline
 

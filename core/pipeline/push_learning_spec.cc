@@ -1,5 +1,7 @@
 #include "core/pipeline/push_learning_spec.h"
 
+#include "core/push/presets/check_preset.h"
+
 namespace poise::pipeline {
 namespace {
 
@@ -11,7 +13,7 @@ StatusOr<TrainPushSpec> ParseTraining(const base::Json& parameters) {
                                  spec.hold_out.empty() ? "action_class" : "hold_out",
                                  "recorded pushes have neither classes nor actors");
   }
-  POISE_RETURN_IF_ERROR(spec.Config().status());
+  POISE_RETURN_IF_ERROR(push::CheckPreset(spec.preset, spec.overrides));
   return spec;
 }
 
@@ -32,10 +34,6 @@ StatusOr<TrainPushSpec> TrainPushSpec::FromParameters(const base::Json& paramete
   StatusOr<TrainPushSpec> spec = ParseTraining(parameters);
   if (!spec.ok()) return base::Annotate(spec.status(), "train_push", "spec.parameters");
   return spec;
-}
-
-StatusOr<push::PushTraining> TrainPushSpec::Config() const {
-  return ConfigOf<push::PushTraining>();
 }
 
 StatusOr<EvaluatePushSpec> EvaluatePushSpec::FromParameters(const base::Json& parameters) {

@@ -6,19 +6,15 @@
 #include "core/base/json.h"
 #include "core/base/status.h"
 #include "core/pipeline/training_spec.h"
-#include "core/push/training/push_training_config.h"
 
 namespace poise::pipeline {
 
 /// The parameters of a job of kind `train_push`; data_artifact is a take file
 /// (push/takes/take_file.h). Takes have neither classes nor actors to leave out.
 struct TrainPushSpec : TrainingSpec {
-  /// Errors: those of ReadTrainingSpec and Config, with a field below "spec.parameters";
+  /// Errors: those of ReadTrainingSpec and push::CheckPreset, with a field below "spec.parameters";
   /// kInvalidArgument UNKNOWN_CONFIG_KEY for "action_class" and "hold_out".
   static StatusOr<TrainPushSpec> FromParameters(const base::Json& parameters);
-
-  /// The preset with the overrides.
-  StatusOr<push::PushTraining> Config() const;
 };
 
 /// The parameters of a job of kind `evaluate_push`.

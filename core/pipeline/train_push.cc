@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/pipeline/push_learning_spec.h"
+#include "core/push/presets/train_preset.h"
 #include "core/push/takes/take_file.h"
-#include "core/push/training/train_push.h"
 
 namespace poise::pipeline {
 
@@ -14,17 +14,16 @@ StatusOr<TrainedModel> TrainPush(const base::Json& parameters, std::string_view 
                                  const std::optional<std::string>& checkpoint,
                                  const learning::CheckpointSink& sink) {
   POISE_ASSIGN_OR_RETURN(const TrainPushSpec spec, TrainPushSpec::FromParameters(parameters));
-  POISE_ASSIGN_OR_RETURN(const push::PushTraining config, spec.Config());
   POISE_ASSIGN_OR_RETURN(const std::vector<push::PushTake> takes,
                          push::DecodeTakes(take_file, spec.data_artifact));
   POISE_ASSIGN_OR_RETURN(push::PushResult result,
-                         push::TrainPush({.takes = takes,
-                                          .config = config,
-                                          .preset = spec.preset,
-                                          .data = spec.data,
-                                          .data_fingerprint = spec.DataFingerprint(),
-                                          .data_license = spec.data_license},
-                                         context, checkpoint, sink));
+                         push::TrainPreset({.takes = takes,
+                                            .preset = spec.preset,
+                                            .overrides = spec.overrides,
+                                            .data = spec.data,
+                                            .data_fingerprint = spec.DataFingerprint(),
+                                            .data_license = spec.data_license},
+                                           context, checkpoint, sink));
   return TrainedModel{.model = std::move(result.model),
                       .files = {{"learning_curve.csv", "text/csv", std::move(result.curve_csv)}}};
 }

@@ -7,7 +7,7 @@ namespace poise::pipeline {
 
 /// A Training of networks that forecast pushes; `parameters` are a TrainPushSpec's, `take_file` the
 /// bytes of a take file. Errors: those of TrainPushSpec::FromParameters, DecodeTakes and
-/// push::TrainPush.
+/// push::TrainPreset.
 StatusOr<TrainedModel> TrainPush(const base::Json& parameters, std::string_view take_file,
                                  const base::RunContext& context,
                                  const std::optional<std::string>& checkpoint,

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/push/evaluation/anchors.h"
+#include "core/push/ldp/ldp_config.h"
 
 namespace poise::push {
 namespace {
@@ -27,8 +28,27 @@ StatusOr<std::vector<TakeScores>> StatueScores(const Takes& takes, const std::st
   return EvaluateForecaster(*statue, takes, parsed, context);
 }
 
+// Of a model of either method.
+StatusOr<std::vector<TakeScores>> ModelScores(const artifacts::ModelArtifact& model,
+                                              const Takes& takes, Protocol protocol,
+                                              const base::RunContext& context,
+                                              const PaperForecaster& paper) {
+  if (paper && model.card.family == ldp::kFamily) {
+    POISE_ASSIGN_OR_RETURN(const std::vector<ForecastJoints> forecasts,
+                           paper(model, takes, protocol, context));
+    std::vector<TakeScores> scores;
+    for (size_t i = 0; i < takes.size(); ++i) {
+      scores.push_back(ScoreTake(*takes[i], forecasts[i]));
+    }
+    return scores;
+  }
+  POISE_ASSIGN_OR_RETURN(const auto learned, MakeLearnedForecaster(model));
+  return EvaluateForecaster(*learned, takes, protocol, context);
+}
+
 Status AddSet(const std::string& set, const std::vector<NamedModel>& models, const Takes& takes,
-              const base::RunContext& context, std::vector<ForecasterScores>& all) {
+              const base::RunContext& context, const PaperForecaster& paper,
+              std::vector<ForecasterScores>& all) {
   if (takes.empty()) return absl::OkStatus();
   all.push_back({{"nobody_moves", "", set, 0}, ScoresOf(takes, NobodyMoves)});
   all.push_back({{"statue_true_hip", "", set, 0}, ScoresOf(takes, StatueOnTrueHip)});
@@ -38,9 +58,8 @@ Status AddSet(const std::string& set, const std::vector<NamedModel>& models, con
   for (const NamedModel& named : models) {
     const std::string protocol = ProtocolOf(named.model);
     POISE_ASSIGN_OR_RETURN(const Protocol parsed, ParseProtocol(protocol));
-    POISE_ASSIGN_OR_RETURN(const auto learned, MakeLearnedForecaster(named.model));
     POISE_ASSIGN_OR_RETURN(std::vector<TakeScores> scores,
-                           EvaluateForecaster(*learned, takes, parsed, context));
+                           ModelScores(named.model, takes, parsed, context, paper));
     POISE_ASSIGN_OR_RETURN(const std::vector<TakeScores> still,
                            StatueScores(takes, protocol, context));
     ForecasterScores& added = all.emplace_back(
@@ -48,6 +67,7 @@ Status AddSet(const std::string& set, const std::vector<NamedModel>& models, con
     for (const char* measure : {"mpjpe", "hipade", "hipfde", "pose_only"}) {
       added.less_statue[measure] = Compare(added.takes, still, measure, context.seed);
     }
+    if (named.model.card.family != kModelFamily) continue;
     POISE_ASSIGN_OR_RETURN(const PushNetworks networks, PushNetworks::Read(named.model));
     const auto on_true_hip = [&](const PushTake& take) {
       return ForecastOnTrueHip(networks, take);
@@ -62,12 +82,13 @@ Status AddSet(const std::string& set, const std::vector<NamedModel>& models, con
 
 StatusOr<std::vector<ForecasterScores>> EvaluatePush(const std::vector<NamedModel>& models,
                                                      std::span<const PushTake* const> takes,
-                                                     const base::RunContext& context) {
+                                                     const base::RunContext& context,
+                                                     const PaperForecaster& paper) {
   Takes single, several;
   for (const PushTake* take : takes) (take->multi ? several : single).push_back(take);
   std::vector<ForecasterScores> all;
-  POISE_RETURN_IF_ERROR(AddSet("single", models, single, context, all));
-  POISE_RETURN_IF_ERROR(AddSet("several", models, several, context, all));
+  POISE_RETURN_IF_ERROR(AddSet("single", models, single, context, paper, all));
+  POISE_RETURN_IF_ERROR(AddSet("several", models, several, context, paper, all));
   return all;
 }
 

@@ -46,18 +46,23 @@ StatusOr<TakePerson> ReadPerson(const fs::path& folder, const std::string& file,
   const motion::ClipHints hints{
       .unit_m = 0.001, .up = motion::UpAxis::kZ, .frame_rate = kFrameRate};
   POISE_ASSIGN_OR_RETURN(motion::ClipFile read, motion::ReadClipFile(folder / file, hints));
-  TakePerson person{.file = file,
-                    .suit = "",
-                    .rest_pose_turned = read.convention.rest_pose_turned,
-                    .clip = std::move(read.clip),
-                    .joints = {}};
+  TakePerson person{
+      .file = file, .suit = "", .clip = std::move(read.clip), .joints = {}, .rotations = {}};
   POISE_RETURN_IF_ERROR(CheckBody(person));
   if (person.clip->num_frames() != frames) {
     return Malformed(
         file, fmt::format("{} frames, the table says {}", person.clip->num_frames(), frames));
   }
-  person.joints = motion::ForwardKinematics(*person.clip).positions;
+  motion::WorldPoses poses = motion::ForwardKinematics(*person.clip);
+  person.joints = std::move(poses.positions);
   for (Vec3& joint : person.joints) joint = GroundFromWorld(joint);
+  // Turned back to Z up, together with the rest pose where that was turned.
+  const math::Quat ground_from_world(math::Quat::FromTwoVectors(Vec3::UnitY(), Vec3::UnitZ()));
+  person.rotations = std::move(poses.rotations);
+  for (math::Quat& rotation : person.rotations) {
+    rotation = ground_from_world * rotation;
+    if (read.convention.rest_pose_turned) rotation = rotation * ground_from_world.conjugate();
+  }
   return person;
 }
 

@@ -23,20 +23,14 @@ PushInput InputOf(const PushTake& take, Protocol protocol, base::Random& random)
   ScenePush half_sine{.frames = take.push_frames};
   half_sine.force_n = {input.impulse_ns * kFrameRate / take.push_frames, 0};
   for (int frame = 0; frame < take.push_frames; ++frame) {
-    const Eigen::Vector2d recorded = take.force[frame].head<2>();
-    switch (protocol) {
-      case Protocol::kA:
-        input.force_n.push_back(recorded);
-        break;
-      case Protocol::kB:
-        input.force_n.push_back(ForceInFrame(half_sine, frame));
-        break;
-      case Protocol::kC:
-        input.force_n.push_back(frame == 0
-                                    ? Eigen::Vector2d::Zero()
-                                    : Eigen::Vector2d(recorded * (1 + kNoise * random.Normal())));
-        break;
+    if (protocol == Protocol::kB) {
+      input.force_n.push_back(ForceInFrame(half_sine, frame));
+      continue;
     }
+    GeneralisedForce told = take.force[frame];
+    if (protocol == Protocol::kC) told *= frame == 0 ? 0 : 1 + kNoise * random.Normal();
+    input.generalised.push_back(told);
+    input.force_n.push_back(told.head<2>());
   }
   return input;
 }

@@ -25,7 +25,9 @@ StatusOr<Protocol> ParseProtocol(std::string_view name);
 /// The push on person 0 as a model may know it.
 struct PushInput {
   std::vector<Eigen::Vector2d> force_n;  ///< (D) horizontal, one a frame from frame 0
-  double impulse_ns = 0;                 ///< forward, rows 1 .. D-1: all protocols know it
+  /// (D) with the torques that are released beside it; empty where a protocol knows none (B).
+  std::vector<GeneralisedForce> generalised;
+  double impulse_ns = 0;  ///< forward, rows 1 .. D-1: all protocols know it
 };
 
 /// `random` draws protocol C's noise.

@@ -20,15 +20,16 @@ using GeneralisedForce = Eigen::Vector4d;
 enum class Split { kTrain, kTest };
 
 /// One person of a take.
-/// Shapes: joints (frames, kBodyJoints), frame by frame [m], ground frame
+/// Shapes: joints, rotations (frames, kBodyJoints), frame by frame; ground frame, joints [m]
 struct TakePerson {
   std::string file;  ///< below the data set's folder
   std::string suit;  ///< "X07"
   double mass_kg = 0;
-  int stated_onset = 0;           ///< frame of the first movement by the data set's rule; -1: never
-  bool rest_pose_turned = false;  ///< of the clip, when it was turned to Y up
+  int stated_onset = 0;  ///< frame of the first movement by the data set's rule; -1: never
   std::optional<motion::Clip> clip = std::nullopt;  ///< none in takes from a take file
   std::vector<Vec3> joints = {};
+  /// Ground from joint as the file has it: each file's rest pose is another one.
+  std::vector<math::Quat> rotations = {};
 
   int frames() const { return static_cast<int>(joints.size()) / kBodyJoints; }
   const Vec3& joint(int frame, int joint) const { return joints[frame * kBodyJoints + joint]; }

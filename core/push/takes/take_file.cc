@@ -22,6 +22,9 @@ std::string ForceName(size_t take) { return fmt::format("take{}.force", take); }
 std::string JointsName(size_t take, size_t person) {
   return fmt::format("take{}.person{}", take, person);
 }
+std::string RotationsName(size_t take, size_t person) {
+  return JointsName(take, person) + ".rotations";
+}
 
 // Rows of fixed vectors, whose numbers lie one after the other.
 template <typename Vector>
@@ -102,6 +105,10 @@ StatusOr<PushTake> ReadTake(const base::TensorFile& file, size_t index, const ba
     POISE_ASSIGN_OR_RETURN(read.joints,
                            FromRecord<Vec3>(file, JointsName(index, take.people.size()),
                                             {take.frames, kBodyJoints, 3}));
+    POISE_ASSIGN_OR_RETURN(const auto rotations, FromRecord<Eigen::Vector4d>(
+                                                     file, RotationsName(index, take.people.size()),
+                                                     {take.frames, kBodyJoints, 4}));
+    for (const Eigen::Vector4d& rotation : rotations) read.rotations.emplace_back(rotation);
     take.people.push_back(std::move(read));
   }
   if (take.people.empty()) return Malformed(take.name(), "has no people");
@@ -121,6 +128,11 @@ std::string EncodeTakes(const std::vector<PushTake>& takes) {
     for (size_t person = 0; person < take.people.size(); ++person) {
       file.tensors[JointsName(i, person)] =
           ToRecord(take.people[person].joints, {take.frames, kBodyJoints, 3});
+      std::vector<Eigen::Vector4d> rotations;
+      for (const math::Quat& rotation : take.people[person].rotations) {
+        rotations.push_back(rotation.coeffs());
+      }
+      file.tensors[RotationsName(i, person)] = ToRecord(rotations, {take.frames, kBodyJoints, 4});
     }
   }
   file.metadata[kTakes] = list.dump();

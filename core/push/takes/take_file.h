@@ -8,8 +8,9 @@
 #include "core/base/status.h"
 #include "core/push/takes/push_take.h"
 
-/// Recorded takes in one tensor file (base/tensor_file.h), as workers get them: joints and forces
-/// in double precision, everything else as JSON in the metadata ("takes"). Clips stay behind.
+/// Recorded takes in one tensor file (base/tensor_file.h), as workers get them: joints, rotations
+/// (w last) and forces in double precision, everything else as JSON in the metadata ("takes").
+/// Clips stay behind.
 namespace poise::push {
 
 std::string EncodeTakes(const std::vector<PushTake>& takes);

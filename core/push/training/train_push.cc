@@ -181,14 +181,14 @@ std::vector<const PushTake*> TakesFor(const PushTask& task) {
   return chosen;
 }
 
-motion::MotionSignature Signature() {
+}  // namespace
+
+motion::MotionSignature PushSignature() {
   return {.roles = motion::RequiredRoles(),
           .rotation = motion::RotationRepresentation::kQuaternion,
           .with_root_position = true,
           .frame_rate = kFrameRate};
 }
-
-}  // namespace
 
 StatusOr<PushResult> TrainPush(const PushTask& task, const base::RunContext& context,
                                const std::optional<std::string>& checkpoint,
@@ -219,7 +219,7 @@ StatusOr<PushResult> TrainPush(const PushTask& task, const base::RunContext& con
   card.family = kModelFamily;
   card.preset = task.preset;
   card.config = base::FieldsToJson(config.Fields());
-  card.signature = Signature();
+  card.signature = PushSignature();
   card.data = task.data;
   card.data_fingerprint = task.data_fingerprint;
   card.data_license = task.data_license;

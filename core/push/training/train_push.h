@@ -25,6 +25,9 @@ struct PushTask {
   std::string data_license = {};
 };
 
+/// What push models move.
+motion::MotionSignature PushSignature();
+
 /// MakeLearnedForecaster makes a forecaster of the model, without LibTorch.
 struct PushResult {
   artifacts::ModelArtifact model;

@@ -39,7 +39,11 @@ TEST(FlowTableTest, OnlyJobsThatLearnNeedLibTorch) {
   EXPECT_FALSE(NeedsTorch({.kind = "selftest", .parameters = {}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_vae", .parameters = {}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_push", .parameters = {}}));
-  EXPECT_FALSE(NeedsTorch({.kind = "evaluate_push", .parameters = {}}));
+  EXPECT_FALSE(
+      NeedsTorch({.kind = "evaluate_push", .parameters = {{"data_artifact", "artifacts/0"}}}));
+  EXPECT_TRUE(NeedsTorch(
+      {.kind = "evaluate_push",
+       .parameters = {{"data_artifact", "artifacts/0"}, {"model_artifact", "artifacts/1"}}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_predictor", .parameters = {}}));
   EXPECT_FALSE(NeedsTorch({.kind = "evaluate_predictor", .parameters = {}}));
   EXPECT_TRUE(NeedsTorch({.kind = "train_debias", .parameters = {}}));

@@ -96,6 +96,7 @@ TEST(TakeFileTest, KeepsEveryNumberOfTheTakes) {
     ASSERT_EQ(is.people.size(), was.people.size());
     for (size_t person = 0; person < was.people.size(); ++person) {
       EXPECT_EQ(is.people[person].joints, was.people[person].joints);
+      EXPECT_EQ(is.people[person].rotations, was.people[person].rotations);
       EXPECT_EQ(is.people[person].mass_kg, was.people[person].mass_kg);
       EXPECT_EQ(is.people[person].stated_onset, was.people[person].stated_onset);
     }

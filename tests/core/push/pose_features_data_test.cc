@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "core/motion/kinematics/forward_kinematics.h"
 #include "core/push/body_joints.h"
 #include "core/push/pendulum/pendulum.h"
 #include "core/push/restoration/pose_features.h"
@@ -12,17 +11,6 @@
 
 namespace poise::push {
 namespace {
-
-// Rotations as the file has them: turned back to Z up together with the rest pose.
-std::vector<math::Quat> FileRotations(const TakePerson& person) {
-  const math::Quat ground_from_world(math::Quat::FromTwoVectors(Vec3::UnitY(), Vec3::UnitZ()));
-  std::vector<math::Quat> rotations = motion::ForwardKinematics(*person.clip).rotations;
-  for (math::Quat& rotation : rotations) {
-    rotation = ground_from_world * rotation;
-    if (person.rest_pose_turned) rotation = rotation * ground_from_world.conjugate();
-  }
-  return rotations;
-}
 
 Eigen::Matrix<double, 1, 6> PendulumFeatures(const TakePerson& person, int frame) {
   const auto position = [&](int at) {
@@ -40,8 +28,7 @@ struct Sets {
   std::map<std::string, std::vector<Eigen::RowVectorXd>> rows;
 
   void Add(const TakePerson& person) {
-    const std::vector<math::Quat> rotations = FileRotations(person);
-    const BodyMotion motion{person.frames(), person.joints, rotations};
+    const BodyMotion motion{person.frames(), person.joints, person.rotations};
     const Eigen::MatrixXd low = PoseFeatures(motion, kLowerBody);
     const Eigen::MatrixXd up = PoseFeatures(motion, kUpperBody);
     for (int frame = 0; frame < low.rows(); ++frame) {

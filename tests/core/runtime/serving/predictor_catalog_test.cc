@@ -51,6 +51,22 @@ TEST_F(PredictorCatalogTest, ANameFollowsTheRegistryAndAVersionStays) {
   EXPECT_EQ(Version("mine@1"), "UNKNOWN_VERSION");
 }
 
+TEST_F(PredictorCatalogTest, EveryModelThatShipsIsServedAndTogetherTheyAreSmall) {
+  size_t numbers = 0;
+  const std::vector<api::Model> models = registry_->List();
+  ASSERT_GE(models.size(), 2u);
+  for (const api::Model& listed : models) {
+    const std::string name = listed.name + "@" + listed.version;
+    ASSERT_TRUE(catalog_->Find(name).ok()) << name << ": " << catalog_->Find(name).status();
+    const auto model = registry_->Load({.name = listed.name, .version = listed.version});
+    ASSERT_TRUE(model.ok()) << name << ": " << model.status();
+    EXPECT_FALSE(model->card.scores.empty()) << name;
+    EXPECT_FALSE(model->card.data_license.empty()) << name;
+    for (const auto& [tensor, values] : model->weights.tensors) numbers += values.bytes.size();
+  }
+  EXPECT_LT(numbers, 10e6);
+}
+
 TEST_F(PredictorCatalogTest, OneModelIsOnePredictorForAll) {
   EXPECT_EQ(catalog_->Find("predictor-cmu")->predictor,
             catalog_->Find("predictor-cmu@1")->predictor);

@@ -13,16 +13,16 @@ namespace poise::push {
 
 /// When and how feet step. Own design; chosen on the validation takes.
 struct StepConfig {
-  bool enabled = true;        ///< false: feet go where the networks put them, and slide
-  double probability = 0.2;   ///< [0 to 1] of swinging, above which a foot steps
-  double shortest_m = 0.065;  ///< [m, 0 to 1] a step to a place nearer than this is not made
-  double farthest_m = 0.45;   ///< [m, 0.05 to 2] a foot this far from where it should be steps
-  double frames = 13;         ///< [frames, 4 to 60] that a swing takes
-  double frames_per_m = 14;   ///< [frames/m, 0 to 60] longer, the farther it goes
-  double lift_m = 0.03;       ///< [m, 0 to 0.3] height of the toe in the middle of a swing
-  double lift_share = 0.09;   ///< [0 to 1] higher, the farther it goes: share of the way
-  double aimed_share = 0.9;   ///< [0 to 1] of a swing in which its goal may still change
-  int rest_frames = 5;        ///< [frames, 0 to 60] that a foot stands before it steps again
+  bool enabled = true;         ///< false: feet go where the networks put them, and slide
+  double probability = 0.17;   ///< [0 to 1] of swinging, above which a foot steps
+  double shortest_m = 0.08;    ///< [m, 0 to 1] a step to a place nearer than this is not made
+  double farthest_m = 0.33;    ///< [m, 0.05 to 2] a foot this far from where it should be steps
+  double frames = 15;          ///< [frames, 4 to 60] that a swing takes
+  double frames_per_m = 12.5;  ///< [frames/m, 0 to 60] longer, the farther it goes
+  double lift_m = 0.026;       ///< [m, 0 to 0.3] height of the toe in the middle of a swing
+  double lift_share = 0.1;     ///< [0 to 1] higher, the farther it goes: share of the way
+  double aimed_share = 1;      ///< [0 to 1] of a swing in which its goal may still change
+  int rest_frames = 3;         ///< [frames, 0 to 60] that a foot stands before it steps again
 
   std::vector<base::Field> Fields();
 };

@@ -62,7 +62,7 @@ struct PoseTraining {
 struct PushTraining {
   std::string protocol = "B";  ///< A, B or C: what the networks know of a push
   int hip_members = 6;         ///< [1 to 64] each has other validation takes
-  int pose_members = 3;        ///< [1 to 64] likewise
+  int pose_members = 1;        ///< [1 to 64] likewise
   /// No member sees the validation takes of fold 0, so that they judge settings.
   bool hold_out = false;
   int every_take = 1;  ///< [1 to 100] learn from every so many training takes only

@@ -75,7 +75,7 @@ std::vector<base::Field> BodyTraining::Fields() {
 
 std::vector<base::Field> EndToEndTraining::Fields() {
   std::vector<base::Field> fields = network.Fields();
-  base::Append(fields, {base::Flag("enabled", &enabled),
+  base::Append(fields, {base::Number("rounds", &rounds, 0, 100),
                         base::Number("joint_weight", &joint_weight, 0, 1000)});
   return fields;
 }

@@ -97,9 +97,9 @@ struct PendulumTraining {
 /// Training of a CVAE or of a sampler (sec. 7, 8). Ours: one update a roll-out, not one a frame,
 /// and fewer of them (the paper's 140 and 100 epochs are some 150,000 updates each).
 struct BodyTraining {
-  NetworkTraining network = {.steps = 1500,
+  NetworkTraining network = {.steps = 600,
                              .batch_size = 64,
-                             .learning_rate = 5e-4,
+                             .learning_rate = 1e-3,
                              .weight_decay = 0,
                              .validate_every = 100};
   int rollout = 16;             ///< [frames, 1 to 1000] the paper: 8 or 32
@@ -115,12 +115,9 @@ struct BodyTraining {
 
 /// Training of everything together: stated by the paper, without a schedule. Ours.
 struct EndToEndTraining {
-  NetworkTraining network = {.steps = 120,
-                             .batch_size = 8,
-                             .learning_rate = 2e-4,
-                             .weight_decay = 0,
-                             .validate_every = 20};
-  bool enabled = true;
+  NetworkTraining network = {
+      .steps = 80, .batch_size = 8, .learning_rate = 2e-4, .weight_decay = 0, .validate_every = 10};
+  int rounds = 2;  ///< [0 to 100] each with the cosine anew, from the best step of the one before
   double joint_weight = 10;  ///< [0 to 1000] of the mean joint error [m] beside the pendulum's loss
 
   std::vector<base::Field> Fields();
@@ -135,11 +132,11 @@ struct LdpTraining {
   InteractionConfig interaction;
   BodyConfig body;
   PendulumTraining balance_training;
-  PendulumTraining interaction_training = {.network = {.steps = 200,
+  PendulumTraining interaction_training = {.network = {.steps = 150,
                                                        .batch_size = 8,
                                                        .learning_rate = 1e-3,
                                                        .weight_decay = 0,
-                                                       .validate_every = 20},
+                                                       .validate_every = 15},
                                            .rod_weight = 0};
   BodyTraining cvae_training;
   BodyTraining sampler_training;

@@ -40,8 +40,9 @@ StatusOr<std::string> Encode(const Done& done, const LdpNet& net, std::string_vi
   return base::EncodeTensors(file);
 }
 
-// Fills `net`; returns what was done and the checkpoint of the stage under way.
-StatusOr<std::pair<Done, std::string>> Decode(const std::string& checkpoint, LdpNet& net) {
+// Fills `net`; returns what was done and the checkpoint of the stage under way, if it has begun.
+StatusOr<std::pair<Done, std::optional<std::string>>> Decode(const std::string& checkpoint,
+                                                             LdpNet& net) {
   const auto corrupt = [](std::string_view problem) {
     return base::MakeError(absl::StatusCode::kDataLoss, "CORRUPT_CHECKPOINT", "",
                            fmt::format("the checkpoint of a push training: {}", problem));
@@ -63,7 +64,9 @@ StatusOr<std::pair<Done, std::string>> Decode(const std::string& checkpoint, Ldp
   } catch (const std::exception& error) {
     return corrupt(error.what());
   }
-  return std::pair(std::move(done), trainer.mapped().bytes);
+  std::optional<std::string> begun;
+  if (!trainer.mapped().bytes.empty()) begun = trainer.mapped().bytes;
+  return std::pair(std::move(done), std::move(begun));
 }
 
 using Stage = std::function<NetworkTask()>;
@@ -85,7 +88,7 @@ std::vector<Stage> StagesOf(const LdpTraining& config, LdpNet net,
       stages.push_back([=] { return SamplerTask(net, part, samples, config.sampler_training); });
     }
   }
-  if (config.pendulum && config.end_to_end.enabled) {
+  for (int round = 0; config.pendulum && round < config.end_to_end.rounds; ++round) {
     stages.push_back([=] { return EndToEndTask(net, takes, config); });
   }
   return stages;
@@ -97,8 +100,7 @@ int64_t StepsOf(const LdpTraining& config, const LdpNet& net, bool several) {
   if (!config.pendulum) return steps;
   steps += parts * config.sampler_training.network.steps + config.balance_training.network.steps;
   if (several) steps += config.interaction_training.network.steps;
-  if (config.end_to_end.enabled) steps += config.end_to_end.network.steps;
-  return steps;
+  return steps + config.end_to_end.rounds * config.end_to_end.network.steps;
 }
 
 Status TrainStages(const std::vector<Stage>& stages, LdpNet& net, Done& done,
@@ -133,6 +135,10 @@ Status TrainStages(const std::vector<Stage>& stages, LdpNet& net, Done& done,
     done.seconds += report.seconds;
     done.scores[name] = report.best_validation;
     done.curve_csv += fmt::format("# {}\n{}", name, curve);
+    if (sink.save) {
+      POISE_ASSIGN_OR_RETURN(const std::string all, Encode(done, net, ""));
+      POISE_RETURN_IF_ERROR(sink.save(all, done.steps));
+    }
   }
   return absl::OkStatus();
 }

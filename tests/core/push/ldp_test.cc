@@ -312,6 +312,7 @@ LdpTraining SmallTraining() {
   config.cvae_training.rollout = 4;
   config.sampler_training = config.cvae_training;
   config.end_to_end.network = few;
+  config.end_to_end.rounds = 1;
   return config;
 }
 

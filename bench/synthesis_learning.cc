@@ -61,7 +61,13 @@ struct Row {
 const std::vector<Row>& TableRows() {
   static const std::vector<Row> rows = {
       {"training", "", {}, ""},
-      {"gan", "gan", {{"generator", "gan"}}, "prior"},
+      // Rates and momentum as the discriminators': a faster generator runs away from them.
+      {"gan",
+       "gan",
+       {{"generator", "gan"},
+        {"vae_optimizer.learning_rate", "0.0001"},
+        {"vae_optimizer.beta1", "0.5"}},
+       "prior"},
       {"vae", "plain", {{"adversarial", "false"}}, "prior"},
       {"adversarial", "adversarial", {}, "prior"},
       {"near", "plain", {{"adversarial", "false"}}, "near"},

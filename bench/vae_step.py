@@ -168,8 +168,8 @@ class Loop:
             0.001 * masked_mean(second_difference(positions), second_difference(rotations), valid[:, 2:]),
             0.005 * (mean.square() + log_variance.exp() - 1 - log_variance).sum(1).mean(),
             0.01 * (length - lengths).square().mean(),
-            -0.2 * self.frame_judge(made).mean(),
-            -0.2 * self.sequence_judge(made, made_lengths).mean(),
+            -0.03 * self.frame_judge(made).mean(),
+            -0.03 * self.sequence_judge(made, made_lengths).mean(),
         ]
         self.vae_optimizer.zero_grad()
         sum(terms).backward()

@@ -46,7 +46,7 @@ VaeConfig::VaeConfig()
                     .schedule = "cosine",
                     .clip_norm = 1},
       discriminator_optimizer{.type = "adam", .learning_rate = 1e-4, .beta1 = 0.5},
-      trainer{.steps = 2000, .batch_size = 8, .with_replacement = true} {}
+      trainer{.steps = 1000, .batch_size = 8, .with_replacement = true} {}
 
 StatusOr<VaeConfig> VaeConfig::FromPreset(std::string_view preset) {
   if (preset == "recommended") return VaeConfig();

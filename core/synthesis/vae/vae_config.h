@@ -43,12 +43,12 @@ struct VaeConfig {
   /// Training begins at the mean pose and length of the training motions.
   bool start_at_mean = true;
 
-  double smoothness_weight = 0.001;        ///< [>= 0] second differences (reference sec. 2.4)
-  double kl_weight = 0.01;                 ///< [>= 0]
-  double length_weight = 0.01;             ///< [>= 0]
-  bool adversarial = true;                 ///< with frame and sequence discriminators
-  double frame_adversary_weight = 0.2;     ///< [>= 0] paper: 1
-  double sequence_adversary_weight = 0.2;  ///< [>= 0] paper: 1
+  double smoothness_weight = 0.001;         ///< [>= 0] second differences (reference sec. 2.4)
+  double kl_weight = 0.01;                  ///< [>= 0]
+  double length_weight = 0.01;              ///< [>= 0]
+  bool adversarial = true;                  ///< with frame and sequence discriminators
+  double frame_adversary_weight = 0.03;     ///< [>= 0] paper: 1
+  double sequence_adversary_weight = 0.03;  ///< [>= 0] paper: 1
 
   learning::OptimizerConfig vae_optimizer;
   learning::OptimizerConfig discriminator_optimizer;

@@ -117,7 +117,7 @@ struct BodyTraining {
 struct EndToEndTraining {
   NetworkTraining network = {
       .steps = 80, .batch_size = 8, .learning_rate = 2e-4, .weight_decay = 0, .validate_every = 10};
-  int rounds = 2;  ///< [0 to 100] each with the cosine anew, from the best step of the one before
+  int rounds = 1;  ///< [0 to 100] each with the cosine anew, from the best step of the one before
   double joint_weight = 10;  ///< [0 to 1000] of the mean joint error [m] beside the pendulum's loss
 
   std::vector<base::Field> Fields();

@@ -43,7 +43,8 @@ constexpr char kPredictorFooter[] =
 constexpr char kPushDescription[] =
     "Train networks that forecast what people do after a push, on recorded takes.\n\n"
     "The takes are read from the folder of FZJ Push and kept on the server. The published test "
-    "takes are not learned from and choose nothing. Settings: preset recommended, then --set.";
+    "takes are not learned from and choose nothing. Settings: preset recommended, or paper for the "
+    "paper's own method, then --set.";
 constexpr char kPushFooter[] =
     "Examples:\n"
     "  poise train push --data ~/fzj_push --name push-mine --seed 1\n"

@@ -90,19 +90,22 @@ void BodyEnsemble::PlaceFeet(int i, const HipMoment& now, const Eigen::RowVector
                              bool step) {
   if (!networks_.steps.enabled) return;
   Person& person = people_[i];
+  const ScenePerson& first = scene_.people[i];
   std::array<FootWish, 2> wishes;
   for (int foot = 0; foot < 2; ++foot) {
     const Eigen::RowVector2f from_pelvis =
         person.body[kToes[foot]].head<2>().cast<float>().transpose() +
         change.segment<2>(kFootholdColumn + 2 * foot);
     const Eigen::RowVector2f place = now.path.row(i) + ToGround(now.headings.row(i), from_pelvis);
-    wishes[foot] = {change[kSwingColumn + foot], place.cast<double>().transpose()};
+    wishes[foot] = {
+        change[kSwingColumn + foot], place.cast<double>().transpose(),
+        now.path.row(i).cast<double>().transpose() + first.shape[kToes[foot]].head<2>()};
   }
   const Vec3 pelvis(now.path(i, 0), now.path(i, 1), heights_[i]);
   if (step) person.steps.Step(networks_.steps, wishes, now.takes_part[i]);
   std::array<Vec3, 2> toes = person.steps.toes();
   for (Vec3& toe : toes) toe -= pelvis;
-  PlantFeet(scene_.people[i].shape, toes, turns_[i]);
+  PlantFeet(first.shape, toes, turns_[i]);
 }
 
 void BodyEnsemble::Step(const HipMoment& now, const HipMoment& middle, const HipMoment& far) {

@@ -16,7 +16,8 @@ constexpr double kFloor = 0.02;
 std::array<Vec3, 2> Standing() { return {Vec3(0, -0.1, kFloor), Vec3(0, 0.1, kFloor)}; }
 
 std::array<FootWish, 2> Stay() {
-  return {FootWish{0, Eigen::Vector2d(0, -0.1)}, FootWish{0, Eigen::Vector2d(0, 0.1)}};
+  const Eigen::Vector2d right(0, -0.1), left(0, 0.1);
+  return {FootWish{0, right, right}, FootWish{0, left, left}};
 }
 
 TEST(StepPlannerTest, FeetStandWhileNothingIsWantedOfThem) {
@@ -32,7 +33,8 @@ TEST(StepPlannerTest, AFootComesDownWhereItShouldAndClearsTheFloor) {
   const StepConfig config;
   StepPlanner planner(Standing());
   std::array<FootWish, 2> wishes = Stay();
-  wishes[1] = {0.9, Eigen::Vector2d(0.5, 0.15)};
+  wishes[1].swings = 0.9;
+  wishes[1].foothold = {0.5, 0.15};
   double highest = 0;
   int frames = 0;
   Vec3 before = planner.toes()[1];
@@ -59,7 +61,11 @@ TEST(StepPlannerTest, OneFootStandsAtAnyTime) {
   int steps = 0;
   for (int frame = 0; frame < 200; ++frame) {
     // Somebody who is pushed on and on: both are always wanted further ahead.
-    for (FootWish& wish : wishes) wish = {0.9, wish.foothold + Eigen::Vector2d(0.02, 0)};
+    for (FootWish& wish : wishes) {
+      wish.swings = 0.9;
+      wish.foothold.x() += 0.02;
+      wish.balance = wish.foothold;
+    }
     const auto before = planner.toes();
     planner.Step({}, wishes, true);
     for (int foot = 0; foot < 2; ++foot) {
@@ -78,6 +84,24 @@ TEST(StepPlannerTest, AFootTooFarBehindStepsWhateverIsSaid) {
   wishes[0].foothold.x() = StepConfig().farthest_m + 0.01;
   planner.Step({}, wishes, true);
   EXPECT_TRUE(planner.swinging());
+}
+
+TEST(StepPlannerTest, WhoLeansForLongStepsUnderTheHip) {
+  const StepConfig config;
+  StepPlanner planner(Standing());
+  std::array<FootWish, 2> wishes = Stay();
+  for (FootWish& wish : wishes) wish.balance.x() -= config.balance_m - 0.01;
+  for (int frame = 0; frame < 100; ++frame) planner.Step(config, wishes, true);
+  EXPECT_FALSE(planner.swinging());
+  for (FootWish& wish : wishes) wish.balance.x() -= 0.02;
+  wishes[1].balance.x() -= 0.02;
+  for (int frame = 0; frame < config.balance_frames; ++frame) planner.Step(config, wishes, true);
+  EXPECT_FALSE(planner.swinging());
+  do {
+    planner.Step(config, wishes, true);
+    ASSERT_EQ(planner.toes()[0], Standing()[0]);
+  } while (planner.swinging());
+  EXPECT_LT((planner.toes()[1].head<2>() - wishes[1].balance).norm(), 1e-12);
 }
 
 BodyShape Average() {

@@ -7,6 +7,7 @@
 
 #include "bench/benchmark.h"
 #include "bench/measure_rate.h"
+#include "bench/predict_setup.h"
 #include "core/base/random.h"
 #include "core/motion/joint_roles.h"
 #include "core/push/push_forecaster.h"
@@ -112,13 +113,32 @@ std::vector<Row> RowsOf(const std::string& name, const push::PushForecaster& for
           {prefix + "per_person_1000_vs_100", growth, "x", "1.3 x required", 1.3 / growth, 1}};
 }
 
+// What forecasting for ten minutes leaves in memory. The first tenth may bring what stays.
+Row TenMinutes(const push::PushForecaster& forecaster) {
+  constexpr int kTenMinutes = 10 * 60 * 60, kFirst = kTenMinutes / 10;
+  push::PushScene scene = BlockScene(13, 3);
+  scene.frames = kTenMinutes;
+  const auto rollout = forecaster.Start(scene);
+  double before = 0;
+  for (int frame = 0; frame < kTenMinutes; ++frame) {
+    if (!rollout->Next().ok()) std::abort();
+    if (frame == kFirst) before = MemoryMb();
+  }
+  const double after = MemoryMb();
+  return {.name = "push/learned/10_minutes_memory",
+          .value = after,
+          .unit = "MB",
+          .peer = fmt::format("{:.1f} MB after the first minute", before),
+          .ratio = before / after};
+}
+
 }  // namespace
 
 std::vector<Row> RunPushBenchmark() {
   std::vector<Row> rows = RowsOf("statue", **push::MakeStatueForecaster({}));
-  for (Row& row : RowsOf("learned", **push::MakeLearnedForecaster(UntrainedModel()))) {
-    rows.push_back(std::move(row));
-  }
+  const auto learned = *push::MakeLearnedForecaster(UntrainedModel());
+  for (Row& row : RowsOf("learned", *learned)) rows.push_back(std::move(row));
+  rows.push_back(TenMinutes(*learned));
   return rows;
 }
 

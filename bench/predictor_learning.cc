@@ -15,9 +15,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "CLI/CLI.hpp"
+#include "bench/checkpoint_file.h"
 #include "bench/overrides.h"
 #include "core/pipeline/evaluate_predictor.h"
 #include "core/prediction/predictor_registry.h"
@@ -211,23 +211,17 @@ Status Begin(const Options& options, const Fold& fold) {
 StatusOr<artifacts::ModelArtifact> Learn(const Options& options, const Fold& fold, uint64_t seed) {
   POISE_ASSIGN_OR_RETURN(const prediction::PredictorTask task, Task(options, fold));
   const std::filesystem::path folder = FolderOf(options.save, fold, seed);
-  const std::string checkpoint_path = folder.string() + ".checkpoint";
   base::RunContext context;
   context.seed = seed;
   context.progress = PrintProgress;
   context.cancellation = Stop();
+  std::optional<bench::CheckpointFile> checkpoints;
   std::optional<std::string> checkpoint;
   learning::CheckpointSink sink;
   if (!options.save.empty()) {
-    if (std::ifstream file(checkpoint_path, std::ios::binary); file) {
-      checkpoint.emplace(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-    }
-    sink.interval = kCheckpointInterval;
-    sink.save = [&](std::string_view bytes, int64_t) {
-      std::ofstream(checkpoint_path + ".new", std::ios::binary) << bytes;
-      std::filesystem::rename(checkpoint_path + ".new", checkpoint_path);
-      return absl::OkStatus();
-    };
+    checkpoints.emplace(folder.string() + ".checkpoint");
+    checkpoint = checkpoints->Read();
+    sink = checkpoints->Sink(kCheckpointInterval);
   }
   POISE_ASSIGN_OR_RETURN(const prediction::PredictorResult trained,
                          prediction::TrainPredictor(task, context, checkpoint, sink));
@@ -243,7 +237,7 @@ StatusOr<artifacts::ModelArtifact> Learn(const Options& options, const Fold& fol
     std::filesystem::create_directories(folder);
     std::ofstream(folder.string() + "_curve.csv") << trained.curve_csv;
     POISE_RETURN_IF_ERROR(artifacts::WriteModelFolder(trained.model, folder));
-    std::filesystem::remove(checkpoint_path);
+    checkpoints->Remove();
   }
   return trained.model;
 }

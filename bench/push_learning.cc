@@ -5,14 +5,13 @@
 //   push_learning --data DIR/fzj_push --seed 1 --preset paper --save /tmp/paper
 //
 // Goes on from SAVE.checkpoint when it was interrupted. Progress goes to standard error.
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "CLI/CLI.hpp"
+#include "bench/checkpoint_file.h"
+#include "bench/overrides.h"
 #include "core/artifacts/model_artifact.h"
 #include "core/push/presets/train_preset.h"
 #include "core/push/takes/fzj_takes.h"
@@ -34,22 +33,6 @@ StatusOr<std::vector<push::PushTake>> ReadTakes(const std::string& folder) {
   return takes;
 }
 
-base::Overrides OverridesOf(const Options& options) {
-  base::Overrides overrides;
-  for (const std::string& assignment : options.assignments) {
-    const size_t equals = assignment.find('=');
-    overrides[assignment.substr(0, equals)] =
-        equals == std::string::npos ? "" : assignment.substr(equals + 1);
-  }
-  return overrides;
-}
-
-std::optional<std::string> ReadFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
-
 void PrintProgress(const base::Progress& progress) {
   if (progress.step % 60 != 0) return;
   std::fprintf(stderr, "%s: step %ld of %ld", progress.message.c_str(),
@@ -65,24 +48,19 @@ Status Run(const Options& options) {
   base::RunContext context;
   context.seed = options.seed;
   context.progress = PrintProgress;
-  const std::string checkpoint = options.save + ".checkpoint";
-  const learning::CheckpointSink sink{absl::Minutes(1), [&](std::string_view bytes, int64_t) {
-                                        std::ofstream(checkpoint + ".new", std::ios::binary)
-                                            << bytes;
-                                        std::filesystem::rename(checkpoint + ".new", checkpoint);
-                                        return absl::OkStatus();
-                                      }};
-  POISE_ASSIGN_OR_RETURN(const push::PushResult trained,
-                         push::TrainPreset({.takes = takes,
-                                            .preset = options.preset,
-                                            .overrides = OverridesOf(options),
-                                            .data = "FZJ Push",
-                                            .data_license = options.license},
-                                           context, ReadFile(checkpoint), sink));
+  const bench::CheckpointFile checkpoint(options.save + ".checkpoint");
+  POISE_ASSIGN_OR_RETURN(
+      const push::PushResult trained,
+      push::TrainPreset({.takes = takes,
+                         .preset = options.preset,
+                         .overrides = bench::ToOverrides(options.assignments),
+                         .data = "FZJ Push",
+                         .data_license = options.license},
+                        context, checkpoint.Read(), checkpoint.Sink(absl::Minutes(1))));
   std::filesystem::create_directories(options.save);
   POISE_RETURN_IF_ERROR(artifacts::WriteModelFolder(trained.model, options.save));
   std::ofstream(options.save + "_curve.csv") << trained.curve_csv;
-  std::filesystem::remove(checkpoint);
+  checkpoint.Remove();
   std::printf("trained %ld steps in %.0f s:", static_cast<long>(trained.model.card.steps),
               trained.seconds);
   for (const auto& [name, value] : trained.model.card.scores) {

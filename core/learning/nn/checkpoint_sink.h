@@ -15,8 +15,10 @@ struct CheckpointSink {
   absl::Duration interval = absl::InfiniteDuration();
   std::function<Status(std::string_view bytes, int64_t step)> save = {};
   /// [0 to 1) Of the time, what checkpoints may take: while they take less, there is one also
-  /// before the interval is over.
+  /// before the interval is over, but not before `least_interval` is: to store them takes others'
+  /// time, too.
   double share = 0;
+  absl::Duration least_interval = absl::Seconds(1);
 };
 
 }  // namespace poise::learning

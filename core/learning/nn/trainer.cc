@@ -188,8 +188,9 @@ class Trainer::Implementation {
   }
 
   bool CheckpointIsDue(const CheckpointSink& sink) const {
-    if (Clock::now() - last_checkpoint_ >= absl::ToChronoNanoseconds(sink.interval)) return true;
-    return sink.share > 0 && checkpoint_seconds_ <= sink.share * SecondsSince(began_);
+    const absl::Duration passed = absl::FromChrono(Clock::now() - last_checkpoint_);
+    if (passed >= sink.interval) return true;
+    return passed >= sink.least_interval && checkpoint_seconds_ < sink.share * SecondsSince(began_);
   }
 
   Status SaveCheckpoint(const CheckpointSink& sink) {

@@ -13,11 +13,19 @@ namespace poise::serving {
 using motion::Clip;
 using prediction::Observation;
 
+namespace {
+
+// Of the longest delay; the rest is for waking up on a busy machine.
+constexpr double kPatience = 0.9;
+
+}  // namespace
+
 BatchingPredictor::BatchingPredictor(std::shared_ptr<const prediction::Predictor> predictor,
                                      const ServingConfig& config, base::Telemetry& telemetry,
                                      const base::Labels& labels)
     : predictor_(std::move(predictor)),
       config_(config),
+      patience_(kPatience * config.max_added_delay),
       executors_(config.executors > 0 ? config.executors : base::AvailableCpus()),
       passes_(telemetry.counter("poise_predict_batches_total", "Forward passes", labels)),
       motions_(
@@ -49,7 +57,7 @@ BatchingPredictor::Answer BatchingPredictor::Predict(std::span<const Observation
       return context.Check();
     }
     if (!MayLead(request, now)) {
-      const absl::Time wake = std::min(context.deadline, request.since + config_.max_added_delay);
+      const absl::Time wake = std::min(context.deadline, request.since + patience_);
       request.changed.wait_until(lock, absl::ToChronoTime(wake));
       continue;
     }
@@ -73,7 +81,7 @@ void BatchingPredictor::WakeNext() const {
 }
 
 bool BatchingPredictor::MayLead(const Request& request, absl::Time now) const {
-  return running_ < executors_ || now >= request.since + config_.max_added_delay;
+  return running_ < executors_ || now >= request.since + patience_;
 }
 
 // Of those who wait the first, as many as one pass may hold; never none.

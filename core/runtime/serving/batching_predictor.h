@@ -63,6 +63,7 @@ class BatchingPredictor : public prediction::Predictor {
 
   const std::shared_ptr<const prediction::Predictor> predictor_;
   const ServingConfig config_;
+  const absl::Duration patience_;  // how long a request waits for others
   const int executors_;
   base::Counter& passes_;
   base::Counter& motions_;

@@ -80,7 +80,7 @@ struct BodyConfig {
 /// Training of the pendulums on whole roll-outs (sec. 4.5, 5.6). Ours: batches of takes and a
 /// cosine instead of 500 epochs of single takes (16,000 updates) at 3e-4.
 struct PendulumTraining {
-  NetworkTraining network = {.steps = 400,
+  NetworkTraining network = {.steps = 2500,
                              .batch_size = 8,
                              .learning_rate = 2e-3,
                              .weight_decay = 0,

@@ -67,6 +67,11 @@ void AwaitCalls(TestServer& server, int calls) {
   while (server.server().calls() < calls) absl::SleepFor(absl::Milliseconds(1));
 }
 
+// A call whose client has its answer still counts until the server has ended it.
+void AwaitNoCalls(TestServer& server) {
+  while (server.server().calls() > 0) absl::SleepFor(absl::Milliseconds(1));
+}
+
 TEST(JobWatchTest, ComesWithTheJobThenItsEventsAndTheTerminalOneLast) {
   TestServer server;
   const JobClient client(server.channel());
@@ -238,6 +243,7 @@ TEST(JobWatchTest, WatchersTakeNoPlacesFromOthersAndLeaveSomeToWorkers) {
   TestServer server(config);
   const JobClient client(server.channel());
   const std::string name = client.Create(SelftestRequest())->name();
+  AwaitNoCalls(server);  // else it is taken for a watcher
   std::vector<std::future<Watched>> watchers;
   for (int i = 0; i < 18; ++i) {
     watchers.push_back(std::async(std::launch::async, [&] { return Watch(client, name); }));

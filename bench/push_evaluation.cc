@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "CLI/CLI.hpp"
 #include "core/push/evaluation/evaluate_push.h"
@@ -49,15 +48,8 @@ void Print(const push::ForecasterScores& scores) {
   }
 }
 
-StatusOr<std::vector<push::PushTake>> ReadTakes(const Options& options) {
-  POISE_ASSIGN_OR_RETURN(auto takes, push::ReadSingleTakes(options.data));
-  POISE_ASSIGN_OR_RETURN(auto more, push::ReadMultiTakes(options.data));
-  std::move(more.begin(), more.end(), std::back_inserter(takes));
-  return takes;
-}
-
 Status Run(const Options& options) {
-  POISE_ASSIGN_OR_RETURN(const std::vector<push::PushTake> takes, ReadTakes(options));
+  POISE_ASSIGN_OR_RETURN(const std::vector<push::PushTake> takes, push::ReadTakes(options.data));
   std::vector<artifacts::ModelArtifact> models;
   std::vector<push::NamedModel> named;
   models.reserve(options.models.size());

@@ -26,13 +26,6 @@ struct Options {
   uint64_t seed = 1;
 };
 
-StatusOr<std::vector<push::PushTake>> ReadTakes(const std::string& folder) {
-  POISE_ASSIGN_OR_RETURN(std::vector<push::PushTake> takes, push::ReadSingleTakes(folder));
-  POISE_ASSIGN_OR_RETURN(std::vector<push::PushTake> more, push::ReadMultiTakes(folder));
-  std::move(more.begin(), more.end(), std::back_inserter(takes));
-  return takes;
-}
-
 void PrintProgress(const base::Progress& progress) {
   if (progress.step % 60 != 0) return;
   std::fprintf(stderr, "%s: step %ld of %ld", progress.message.c_str(),
@@ -44,7 +37,7 @@ void PrintProgress(const base::Progress& progress) {
 }
 
 Status Run(const Options& options) {
-  POISE_ASSIGN_OR_RETURN(const std::vector<push::PushTake> takes, ReadTakes(options.data));
+  POISE_ASSIGN_OR_RETURN(const std::vector<push::PushTake> takes, push::ReadTakes(options.data));
   base::RunContext context;
   context.seed = options.seed;
   context.progress = PrintProgress;

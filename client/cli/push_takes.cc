@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <vector>
 
 #include "core/push/takes/fzj_takes.h"
@@ -12,9 +11,7 @@ namespace poise::cli {
 
 StatusOr<std::string> UploadTakes(client::Client& client, const std::string& folder,
                                   const Console& console) {
-  POISE_ASSIGN_OR_RETURN(std::vector<push::PushTake> takes, push::ReadSingleTakes(folder));
-  POISE_ASSIGN_OR_RETURN(std::vector<push::PushTake> several, push::ReadMultiTakes(folder));
-  std::move(several.begin(), several.end(), std::back_inserter(takes));
+  POISE_ASSIGN_OR_RETURN(const std::vector<push::PushTake> takes, push::ReadTakes(folder));
   console.Note(fmt::format("{} takes read", takes.size()));
   POISE_ASSIGN_OR_RETURN(const client::StoredArtifact stored,
                          client.Upload(push::EncodeTakes(takes)));

@@ -9,7 +9,7 @@
 namespace poise::cli {
 
 /// Reads the recorded pushes of a folder (FZJ Push) and keeps them on the server as one take file.
-/// Returns the artifact. Errors: those of ReadSingleTakes, ReadMultiTakes and Client::Upload.
+/// Returns the artifact. Errors: those of push::ReadTakes and Client::Upload.
 StatusOr<std::string> UploadTakes(client::Client& client, const std::string& folder,
                                   const Console& console);
 

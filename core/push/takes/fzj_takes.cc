@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -180,6 +181,13 @@ StatusOr<std::vector<PushTake>> ReadMultiTakes(const fs::path& folder) {
     }
   }
   POISE_RETURN_IF_ERROR(ReadForces(folder / "multi/pushes.csv", "group", "take", table));
+  return takes;
+}
+
+StatusOr<std::vector<PushTake>> ReadTakes(const fs::path& folder) {
+  POISE_ASSIGN_OR_RETURN(std::vector<PushTake> takes, ReadSingleTakes(folder));
+  POISE_ASSIGN_OR_RETURN(std::vector<PushTake> several, ReadMultiTakes(folder));
+  std::move(several.begin(), several.end(), std::back_inserter(takes));
   return takes;
 }
 

@@ -15,6 +15,8 @@ namespace poise::push {
 /// frame too many or too few, a body that has not the 22 joints), and those of ReadClipFile.
 StatusOr<std::vector<PushTake>> ReadSingleTakes(const std::filesystem::path& folder);
 StatusOr<std::vector<PushTake>> ReadMultiTakes(const std::filesystem::path& folder);
+/// Both, in this order.
+StatusOr<std::vector<PushTake>> ReadTakes(const std::filesystem::path& folder);
 
 /// Takes of one split, without copies.
 std::vector<const PushTake*> TakesOf(const std::vector<PushTake>& takes, Split split);
